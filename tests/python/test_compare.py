@@ -1,5 +1,6 @@
 """Comparisons of fits choose the right law, and selections find the parameter that the data require."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
 import flapwing
@@ -7,6 +8,11 @@ import numpy as np
 import pytest
 from fits import PRESET, TRUE, readings
 from flapwing.fitting import _deciding, _subsets
+from flapwing.fitting._compare import Comparison
+from flapwing.fitting._criteria import criteria
+from flapwing.fitting._data import DataSet
+from flapwing.fitting._noise import Noise
+from flapwing.fitting._parameters import Space
 
 BOTH = ["stroke_pp_deg", "pitch_amplitude_deg"]
 POINTS = {
@@ -88,6 +94,38 @@ def test_unknown_standard_errors_have_a_concentrated_likelihood(lossy):
         spreads = [np.mean(part.values**2) for part in fit.goodness.residuals]
         assert one.deviance == pytest.approx(sum(16 * (np.log(2 * np.pi * spread) + 1) for spread in spreads))
         assert one.parameters == len(fit.estimates) + 2
+
+
+@pytest.mark.parametrize("best", [0, 1])
+def test_held_out_errors_are_compared_over_readings_that_all_fits_predict(best):
+    """Errors of 1, 1, 1, 1, 8, and of 1.2 at four readings without a motion at the fifth."""
+    noise = {"stroke_pp_deg": Noise("absolute", 1.0)}
+    sets = [DataSet("set 1", {}, {"stroke_pp_deg": np.zeros(10)}, noise, None, "drive_frequency")]
+    held, sides = np.arange(10) >= 5, []
+    for place, errors in enumerate([[1.0, -1.0, 1.0, -1.0, 8.0], [1.2, -1.2, 1.2, -1.2, np.nan]]):
+        values = np.concatenate([np.zeros(5), errors])
+        fit = SimpleNamespace(
+            _held=held,
+            _sets=sets,
+            _covariance=np.zeros((0, 0)),
+            _model=SimpleNamespace(asked=SimpleNamespace(measure=["stroke_pp_deg"] * 10)),
+            goodness=SimpleNamespace(p=0.5, is_structured=False),
+        )
+        found = criteria(sets, Space([]), np.zeros(0), values, ~held)
+        found = replace(found, aicc=found.aicc + 5.0 * (place != best))
+        sides.append(_deciding.Side(f"fit {place + 1}", fit, values, np.zeros((10, 0)), found))
+    compared = Comparison(sides)
+    first, second = sorted(compared.fits, key=lambda one: one.name)
+    assert first.held_out_rms == {"stroke_pp_deg": pytest.approx(1.0)}
+    assert second.held_out_rms == {"stroke_pp_deg": pytest.approx(1.2)}
+    constant = 0.5 * np.log(2 * np.pi)
+    assert first.held_out_score == pytest.approx(-0.5 - constant)
+    assert second.held_out_score == pytest.approx(-0.72 - constant)
+    assert (compared.readings, compared.left_out, compared.held_out_left_out) == (5, 0, 1)
+    told = "held-out readings that are not compared, because a fit has no settled motion there: 1"
+    assert told in str(compared).splitlines()
+    assert ("fit 1 predicts the compared readings that were held out best" in compared.verdict) == (best == 1)
+    assert "fit 2 predicts" not in compared.verdict
 
 
 def test_readings_that_do_not_decide():

@@ -169,6 +169,10 @@ def test_readings_without_a_settled_motion_are_told():
         ("set 1", "stroke_pp_deg", 5, "invalid")
     ]
     assert "1 reading does not count" in str(result) and result.goodness.freedom == 28
+    free, held = ["hinge_stiffness"], {"drive_voltage_pp": (150, None)}
+    result = flapwing.fit(PRESET, data, free, sigma="3 %", starts=1, profile=False, hold_out=held)
+    assert (result.held_out.count, result.held_out.unsettled) == (16, 1) and result.held_out.covered <= 15 / 16
+    assert "no settled motion at 1 of them, which the rms error leaves out" in str(result)
 
 
 def test_readings_can_be_pickled():

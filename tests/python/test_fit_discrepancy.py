@@ -1,10 +1,17 @@
 """Fits of data that the model cannot reproduce: discrepancy, patterns in residuals, outliers, drift."""
 
+from types import SimpleNamespace
+
 import flapwing
 import numpy as np
 import pytest
 from fits import PRESET, TRUE, TRUTH, readings
-from flapwing.fitting import _structure
+from flapwing.fitting import _search, _structure
+from flapwing.fitting._criteria import criteria
+from flapwing.fitting._data import DataSet
+from flapwing.fitting._noise import Noise
+from flapwing.fitting._parameters import Space
+from flapwing.fitting._search import Target
 
 BOTH = ["stroke_pp_deg", "pitch_amplitude_deg"]
 VOLTAGES = [110.0, 130.0, 150.0, 170.0]
@@ -91,6 +98,34 @@ def test_patterns_along_each_parameter_are_found(jitter):
 
     assert structured(noise) == []
     assert "drive_voltage_pp" in structured(0.5 * noise + np.sin((voltage - 100.0) / 15.0))
+
+
+@pytest.mark.parametrize("step", [0.05, 0.5, 1.0])
+def test_patterns_along_a_fine_sweep_are_found(step):
+    """Steps below 0.5 % of the frequency, at two voltages whose measured values scatter by 0.1 V."""
+    draw = np.random.default_rng(1)
+    frequency = np.tile(100.0 + step * np.arange(41.0), 2)
+    voltage = np.repeat([150.0, 170.0], 41) + draw.uniform(-0.1, 0.1, 82)
+    order = draw.permutation(82)
+    points = {"drive_frequency": frequency[order], "drive_voltage_pp": voltage[order]}
+    layout = _structure.Layout(points, np.arange(82), np.zeros(82, np.intp))
+    assert layout.varied == list(points) and layout.ranks["drive_voltage_pp"].max() == 1
+    first, second = layout.pairs("drive_voltage_pp", np.arange(82))
+    assert len(first) == 41
+    np.testing.assert_array_equal(points["drive_frequency"][first], points["drive_frequency"][second])
+    sine = 3.0 * np.sin(2.0 * np.pi * (points["drive_frequency"] - 100.0) / (40.0 * step))
+    measures = {"stroke_pp_deg": np.arange(82)}
+    found = {one.parameter: one for one in _structure.tests(layout, measures, sine)}
+    assert found["drive_frequency"].p < 1e-8
+    noise = _structure.tests(layout, measures, draw.normal(size=82))
+    assert len(noise) == 2 and not any(one.is_structured for one in noise)
+
+
+def test_a_parameter_that_scatters_about_one_value_does_not_vary():
+    draw = np.random.default_rng(1)
+    points = {"drive_frequency": np.linspace(100.0, 120.0, 41), "drive_voltage_pp": 150.0 + draw.uniform(-0.3, 0.3, 41)}
+    layout = _structure.Layout(points, np.arange(41), np.zeros(41, np.intp))
+    assert layout.varied == ["drive_frequency"] and len(layout.pairs("drive_frequency", np.arange(41))[0]) == 40
 
 
 @pytest.mark.parametrize("loss", ["linear", "soft_l1"])
@@ -189,3 +224,60 @@ def test_the_report_advises_more_starts():
         found.effort = flapwing.fitting.Effort(starts, agreed, 0, 0, 0.0)
         assert f"{agreed} of {starts} starts ended at this fit" in str(found)
         assert ("fit again with starts=32" in str(found)) == advice
+
+
+def mixed_sets():
+    """90 readings with a standard error of 0.1, and 10 readings without a standard error and with large residuals."""
+    draw, sets = np.random.default_rng(1), []
+    for name, count, noise in [("A", 90, Noise("absolute", 0.1)), ("B", 10, Noise("unknown"))]:
+        measured = {"stroke_pp_deg": 50.0 + draw.normal(0.0, 0.1 if name == "A" else 1.85, count)}
+        sets.append(DataSet(name, {}, measured, {"stroke_pp_deg": noise}, None, "drive_frequency"))
+    return sets
+
+
+def test_unknown_standard_errors_are_estimated_from_their_own_readings():
+    sets, values = mixed_sets(), np.full(100, 50.0)
+    readings = np.concatenate([one.measured["stroke_pp_deg"] for one in sets])
+    answer = SimpleNamespace(values=values)
+    own, guesses = np.sqrt(np.mean((readings[90:] - 50.0) ** 2)), {"stroke_pp_deg": 1.0}
+    everything = np.ones(100, np.bool_)
+    target = Target(readings, np.ones(100), everything, "linear")
+    _search.new_guesses(sets, target, everything, answer, 2, guesses)
+    assert guesses["stroke_pp_deg"] == pytest.approx(own / np.sqrt(0.98)) and own > 1.0
+    likely = criteria(sets, Space([]), np.zeros(0), values, everything)
+    np.testing.assert_allclose(likely.sigma, np.repeat([0.1, own], [90, 10]))
+    assert likely.parameters == 1
+    # If all readings without a standard error are held out, their standard error is that of the other readings.
+    rest = np.arange(100) < 90
+    other = np.sqrt(np.mean((readings[:90] - 50.0) ** 2))
+    _search.new_guesses(sets, target, rest, answer, 0, guesses)
+    assert guesses["stroke_pp_deg"] == pytest.approx(other)
+    likely = criteria(sets, Space([]), np.zeros(0), values, rest)
+    np.testing.assert_allclose(likely.sigma, np.repeat([0.1, other], [90, 10]))
+    assert likely.parameters == 0
+
+
+@pytest.mark.parametrize("flip", [False, True])
+def test_the_order_of_data_sets_does_not_change_their_discrepancy(flip):
+    """A data set without standard errors does not make the discrepancy of the other data set unknown."""
+    data = readings(BOTH, noise=0.02, points=POINTS, drag_coefficient_min=1.5)
+    halves = [{name: values[place::2] for name, values in data.items()} for place in range(2)]
+    sets = [flapwing.Readings(halves[0], name="known", sigma="2 %"), flapwing.Readings(halves[1], name="unknown")]
+    options = {"starts": 1, "profile": False, **AS_MADE}
+    found = flapwing.fit(PRESET, sets[::-1] if flip else sets, ["drag_coefficient_max"], **options)
+    alone = flapwing.fit(PRESET, data, ["drag_coefficient_max"], sigma="2 %", **options)
+    assert [one.unit for one in found.discrepancy] == ["%", "%"]
+    sizes = [one.size for one in alone.discrepancy]
+    assert [one.size for one in found.discrepancy] == pytest.approx(sizes, rel=0.05)
+    assert min(found._guesses.values()) > 0.0
+
+
+def test_a_measure_that_is_held_out_has_no_discrepancy():
+    data = readings(BOTH, noise=0.02, points=POINTS, drag_coefficient_min=1.5)
+    sets = [
+        flapwing.Readings({**{name: data[name] for name in POINTS}, measure: data[measure]}, name=measure)
+        for measure in BOTH
+    ]
+    options = {"sigma": "2 %", "starts": 1, "profile": False, **AS_MADE}
+    found = flapwing.fit(PRESET, sets, ["hinge_stiffness"], hold_out=BOTH[1], **options)
+    assert [one.measure for one in found.discrepancy] == BOTH[:1] and found.held_out.count == 48

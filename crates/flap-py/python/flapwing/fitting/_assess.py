@@ -52,7 +52,9 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     units = {measure: model.names.unit(measure) for one in sets for measure in one.measured}
     layout = Layout(model.points, model.asked.row, _branches(sets))
     names = np.array(model.asked.measure)
-    measures = {measure: np.flatnonzero(counted & (names == measure)) for measure in units}
+    measures = {
+        measure: np.flatnonzero(counted & (names == measure)) for measure in dict.fromkeys(names[counted].tolist())
+    }
     structure = tests(layout, measures, scaled)
     structured = {one.measure for one in structure if one.is_structured}
     is_far = _far(measures, structured, scaled, target.loss)
@@ -131,5 +133,12 @@ def sigma_known(sets: list[DataSet]) -> bool:
 
 
 def kinds(sets: list[DataSet]) -> dict[str, str]:
-    """Return the kind of the standard errors of each measure."""
-    return {measure: noise.kind for one in sets for measure, noise in one.noise.items()}
+    """Return the kind of the standard errors of each measure. If the kinds of the data sets differ, the result is the
+    last of these kinds in the order unknown, relative, absolute.
+    """
+    order = ["unknown", "relative", "absolute"]
+    found: dict[str, str] = {}
+    for one in sets:
+        for measure, noise in one.noise.items():
+            found[measure] = max(found.get(measure, "unknown"), noise.kind, key=order.index)
+    return found

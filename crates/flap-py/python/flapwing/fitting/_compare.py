@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from .. import _arguments
-from . import _assess, _report
+from .._types import Mask
+from . import _assess, _report, _solution
 from ._criteria import criteria
 from ._data import all_readings
 from ._deciding import DecidingMeasurements, DecidingReading, Side, deciding_measurements, deciding_readings
@@ -45,11 +46,12 @@ class ComparedFit:
     weight : float
         Akaike weight: the probability of the fit among the compared fits.
     held_out_rms : dict of str to float
-        Root mean square of the prediction errors of each measure, in the unit of the measure. `held_out_rms` is empty
-        if the fits have no `hold_out`.
+        Root mean square of the prediction errors of each measure, in the unit of the measure. The mean is over the
+        held-out readings that have a settled motion in all compared fits. `held_out_rms` is empty if there are no such
+        readings.
     held_out_score : float
-        Mean logarithm of the predicted probability density of a reading that was not fitted. A higher `held_out_score`
-        is better. `held_out_score` is nan if the fits have no `hold_out`.
+        Mean logarithm of the predicted probability density of a reading that was not fitted, over the readings of
+        `held_out_rms`. A higher `held_out_score` is better. `held_out_score` is nan if there are no such readings.
     """
 
     name: str
@@ -76,6 +78,9 @@ class Comparison:
         Number of compared readings: the readings that all fits use.
     left_out : int
         Number of readings that are not compared, because at least one of the fits has no settled motion at the reading.
+    held_out_left_out : int
+        Number of held-out readings that are not compared, because at least one of the fits has no settled motion at the
+        reading.
     chosen : str
         The name of the fit with the fewest parameters among the fits whose AICc is at most 2 above the lowest AICc.
     is_decided : bool
@@ -84,9 +89,13 @@ class Comparison:
         The result of the comparison in words.
     """
 
-    def __init__(self, sides: Sequence[Side], left_out: int) -> None:
+    def __init__(self, sides: Sequence[Side]) -> None:
         self._sides = sorted(sides, key=lambda side: side.criteria.aicc)
-        self.readings, self.left_out = int(np.isfinite(sides[0].criteria.log).sum()), left_out
+        held = sides[0].fit._held
+        predicted = held & np.logical_and.reduce([np.isfinite(side.values) for side in sides])
+        self.readings = int(np.isfinite(sides[0].criteria.log).sum())
+        self.left_out = int((~held).sum()) - self.readings
+        self.held_out_left_out = int(held.sum() - predicted.sum())
         best = self._sides[0].criteria.aicc
         # If all criteria are infinite, no fit is better.
         delta = np.array([0.0 if one.criteria.aicc == best else one.criteria.aicc - best for one in self._sides])
@@ -103,8 +112,8 @@ class Comparison:
                 float(delta[place]),
                 side.criteria.bic - lowest,
                 float(weights[place]),
-                dict(side.fit.held_out.rms) if side.fit.held_out is not None else {},
-                _held_out_score(side),
+                _held_out_rms(side, predicted),
+                _held_out_score(side, predicted),
             )
             for place, side in enumerate(self._sides)
         ]
@@ -132,7 +141,8 @@ class Comparison:
         if scored:
             first = max(scored, key=lambda one: one.held_out_score)
             if first.name != best.name:
-                lines.append(f"{first.name} predicts the readings that were held out best")
+                compared = "compared " if self.held_out_left_out else ""
+                lines.append(f"{first.name} predicts the {compared}readings that were held out best")
         good = self._sides[0].fit.goodness
         if good.p < _assess.POOR or good.is_structured:
             lines.append(f"{best.name} does not agree with the readings either: all fits lack an effect")
@@ -205,8 +215,9 @@ class Comparison:
             cells += [f"{one.held_out_rms.get(measure, np.nan):.3g}" for measure in measures]
             rows.append(cells + [f"{one.held_out_score:.2f}"] * bool(measures))
         lines = [_report.table(heads, rows)]
-        if self.left_out:
-            lines.append(f"{self.left_out} readings are not compared: at least one fit has no settled motion there")
+        for count, kind in ((self.left_out, "readings"), (self.held_out_left_out, "held-out readings")):
+            if count:
+                lines.append(f"{kind} that are not compared, because a fit has no settled motion there: {count}")
         return "\n".join([*lines, self.verdict])
 
     def __repr__(self) -> str:
@@ -276,7 +287,7 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
     for name, one, answer in zip(named, listed, answers):
         found = criteria(one._sets, one._model.space, one._x, answer.values, common)
         sides.append(Side(name, one, answer.values, answer.slopes, found))
-    return Comparison(sides, int((~listed[0]._held).sum() - common.sum()))
+    return Comparison(sides)
 
 
 def _check_same(first_name: str, first: Fit, name: str, other: Fit) -> None:
@@ -308,14 +319,19 @@ def _equal(one: Any, other: Any) -> bool:
     return bool(np.array_equal(np.asarray(one), np.asarray(other)))
 
 
-def _held_out_score(side: Side) -> float:
-    """Return the mean log density of the readings that were not fitted. Return nan if none of the readings that were
-    not fitted has a settled motion."""
-    held = side.fit._held & np.isfinite(side.values)
-    if not held.any():
+def _held_out_rms(side: Side, predicted: Mask) -> dict[str, float]:
+    """Return the root mean square of the prediction errors of each measure, over the readings in the mask
+    `predicted`."""
+    names = np.array(side.fit._model.asked.measure)
+    return _solution.rms_errors(names, side.values - all_readings(side.fit._sets), predicted)
+
+
+def _held_out_score(side: Side, predicted: Mask) -> float:
+    """Return the mean log density of the readings in the mask `predicted`. Return nan if the mask is empty."""
+    if not predicted.any():
         return float("nan")
     known = np.where(np.isfinite(side.fit._covariance), side.fit._covariance, 0.0)
-    slopes = side.slopes[held]
-    variance = side.criteria.sigma[held] ** 2 + np.maximum(0.0, np.einsum("ij,jk,ik->i", slopes, known, slopes))
-    error = side.values[held] - all_readings(side.fit._sets)[held]
+    slopes = side.slopes[predicted]
+    variance = side.criteria.sigma[predicted] ** 2 + np.maximum(0.0, np.einsum("ij,jk,ik->i", slopes, known, slopes))
+    error = side.values[predicted] - all_readings(side.fit._sets)[predicted]
     return float(np.mean(-0.5 * error**2 / variance - 0.5 * np.log(2.0 * np.pi * variance)))

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._types import Array, Mask
-from ._data import DataSet, all_readings, places_of
+from ._data import DataSet, all_readings, are_unknown, estimating
 from ._parameters import Space
 from ._search import sigmas
 
@@ -50,18 +50,19 @@ def _log_likelihoods(sets: Sequence[DataSet], values: Array, counted: Mask) -> t
     """Return the log likelihood and the standard error of each reading, and the number of estimated standard errors.
 
     The log likelihood is nan for readings that are not counted. An unknown standard error is estimated as the root mean
-    square of the residuals of the measure. If a motion does not settle, the model's value of a reading is zero, as for
-    a wing at rest.
+    square of the residuals of the readings without a given standard error. If a motion does not settle, the model's
+    value of a reading is zero, as for a wing at rest.
     """
-    measured, places = all_readings(sets), places_of(sets)
+    measured = all_readings(sets)
     error = np.where(np.isfinite(values), values, 0.0) - measured
-    which = np.array([measure for _, measure, _ in places])
-    unknown = np.array([one.noise[measure].kind == "unknown" for one, measure, _ in places])
-    sigma = sigmas(sets, values, dict.fromkeys(which.tolist(), 1.0))
-    estimated = list(dict.fromkeys(which[unknown & counted].tolist()))
-    for measure in estimated:
-        mine = unknown & (which == measure)
-        least = 1e-9 * float(np.abs(measured[mine]).max())
-        sigma[mine] = max(float(np.sqrt(np.mean(error[mine & counted] ** 2))), least)
+    measures = list(dict.fromkeys(measure for one in sets for measure in one.measured))
+    sigma = sigmas(sets, values, dict.fromkeys(measures, 1.0))
+    estimated = 0
+    for measure in measures:
+        unknown, source = are_unknown(sets, measure), estimating(sets, measure, counted)
+        estimated += bool((unknown & counted).any())
+        if unknown.any() and source.any():
+            least = 1e-9 * float(np.abs(measured[unknown]).max())
+            sigma[unknown] = max(float(np.sqrt(np.mean(error[source] ** 2))), least)
     log = -0.5 * (error / sigma) ** 2 - np.log(np.sqrt(2.0 * np.pi) * sigma)
-    return np.where(counted, log, np.nan), sigma, len(estimated)
+    return np.where(counted, log, np.nan), sigma, estimated

@@ -12,7 +12,7 @@ import numpy as np
 
 from .. import _arguments, _flapwing
 from .._mistakes import reading
-from .._types import Array, Value
+from .._types import Array, Mask, Value
 from ._cells import file_columns, measure_cells, parameter_cells, sigma_cells
 from ._names import OTHER_COLUMNS, Names
 from ._noise import UNKNOWN_NOISE, Noise, parse_noise
@@ -123,6 +123,26 @@ def all_readings(sets: Sequence[DataSet]) -> Array:
 def places_of(sets: Sequence[DataSet]) -> list[tuple[DataSet, str, int]]:
     """Return the data set, the measure and the row (from 0) of each reading."""
     return [(one, measure, row) for one in sets for measure in one.measured for row in range(len(one))]
+
+
+def are_unknown(sets: Sequence[DataSet], measure: str) -> Mask:
+    """Return a mask of all readings, which is True for readings of a measure without a given standard error."""
+    return np.concatenate(
+        [
+            np.full(len(one), name == measure and one.noise[name].kind == "unknown")
+            for one in sets
+            for name in one.measured
+        ]
+    )
+
+
+def estimating(sets: Sequence[DataSet], measure: str, counted: Mask) -> Mask:
+    """Return a mask of the readings from whose residuals the unknown standard error of a measure is estimated: the
+    counted readings without a given standard error. If no such reading is counted, the estimate is computed from all
+    counted readings of the measure.
+    """
+    mine = counted & are_unknown(sets, measure)
+    return mine if mine.any() else counted & np.array([name == measure for _, name, _ in places_of(sets)])
 
 
 _READERS = {"parameter": parameter_cells, "measure": measure_cells, "sigma": sigma_cells}

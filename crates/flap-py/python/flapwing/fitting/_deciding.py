@@ -11,7 +11,7 @@ import numpy as np
 from .._types import Array
 from . import _report
 from ._criteria import Criteria
-from ._data import all_readings, places_of
+from ._data import all_readings, are_unknown, places_of
 from ._points import answers_at, cell, points_of
 from ._result import Fit
 from ._search import finite_covariance
@@ -168,7 +168,8 @@ def deciding_measurements(
 
 def _sigma(side: Side, measure: str, values: Array) -> Array:
     """Return the standard errors of new readings. Each unknown standard error has the most likely value."""
-    likely = float(np.median(side.criteria.sigma[np.array(side.fit._model.asked.measure) == measure]))
+    unknown = are_unknown(side.fit._sets, measure)
+    likely = float(np.median(side.criteria.sigma[unknown])) if unknown.any() else 1.0
     return side.fit._noise(measure, {}).of(values, np.nan_to_num(values), likely)
 
 

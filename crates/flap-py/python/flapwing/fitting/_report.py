@@ -134,10 +134,12 @@ def _quality(fit: Solution) -> list[str]:
         more = f" and {len(fit.outliers) - _LISTED} more" if len(fit.outliers) > _LISTED else ""
         lines.append(f"outliers (model minus reading in standard errors): {listed}{more}")
     if fit.held_out is not None:
-        rms = ", ".join(f"{value:.3g} ({name})" for name, value in fit.held_out.rms.items())
+        rms = ", ".join(f"{value:.3g} ({name})" for name, value in fit.held_out.rms.items()) or "unknown"
+        lost = fit.held_out.unsettled
         lines.append(
             f"{fit.held_out.count} readings held out: rms error of prediction {rms}; "
             f"{100 * fit.held_out.covered:.0f} % in their 95 % bands"
+            + (f"; no settled motion at {lost} of them, which the rms error leaves out" if lost else "")
         )
     return lines
 

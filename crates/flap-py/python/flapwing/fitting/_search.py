@@ -12,7 +12,7 @@ from typing import Any, TypeVar
 import numpy as np
 
 from .._types import Array, Mask
-from ._data import DataSet, places_of
+from ._data import DataSet, estimating
 from ._model import FINE, Answer, Model
 from ._parameters import Space
 
@@ -307,10 +307,9 @@ def new_guesses(
     sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: int, guesses: dict[str, float]
 ) -> None:
     """Update the estimates of unknown standard errors in `guesses`, from the residuals."""
-    which = np.array([measure for _, measure, _ in places_of(sets)])
     freedom = max(1, int(used.sum()) - parameters) / max(1, int(used.sum()))
     for measure in guesses:
-        mine = used & (which == measure)
+        mine = estimating(sets, measure, used)
         residuals = (answer.values - target.measured)[mine]
         if len(residuals):
             robust = 1.4826 * float(np.median(np.abs(residuals)))

@@ -88,15 +88,20 @@ class HeldOut:
     count : int
         Number of readings that were not fitted.
     rms : dict of str to float
-        Root mean square of the prediction errors of each measure, in the unit of the measure.
+        Root mean square of the prediction errors of each measure, in the unit of the measure. `rms` does not contain
+        the `unsettled` readings.
     covered : float
         The fraction of the readings within the 95 % bands of the predictions. The bands include the errors of the
-        parameters, the discrepancy of the model, and the noise of the readings.
+        parameters, the discrepancy of the model, and the noise of the readings. An `unsettled` reading counts as
+        outside its band.
+    unsettled : int
+        Number of readings without a prediction, because the motion of the model at the operating point does not settle.
     """
 
     count: int
     rms: dict[str, float]
     covered: float
+    unsettled: int
 
 
 @dataclass(frozen=True)
@@ -248,11 +253,18 @@ def held_out(names: np.ndarray[Any, Any], measured: Array, values: Array, held: 
     """
     difference = values - measured
     settled = held & np.isfinite(difference)
-    rms = {
-        str(measure): float(np.sqrt(np.mean(difference[settled & (names == measure)] ** 2)))
-        for measure in dict.fromkeys(names[settled].tolist())
+    covered = float(np.mean((np.abs(difference) <= reach)[held]))
+    return HeldOut(int(held.sum()), rms_errors(names, difference, settled), covered, int((held & ~settled).sum()))
+
+
+def rms_errors(names: np.ndarray[Any, Any], difference: Array, chosen: Mask) -> dict[str, float]:
+    """Return the root mean square of the differences of each measure, over the chosen readings. `names` has the measure
+    of each reading.
+    """
+    return {
+        str(measure): float(np.sqrt(np.mean(difference[chosen & (names == measure)] ** 2)))
+        for measure in dict.fromkeys(names[chosen].tolist())
     }
-    return HeldOut(int(held.sum()), rms, float(np.mean((np.abs(difference) <= reach)[held])))
 
 
 class Solution:

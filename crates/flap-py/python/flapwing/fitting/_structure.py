@@ -20,6 +20,10 @@ _FEWEST = 8
 #: Largest relative difference between values of a parameter that count as equal.
 _EQUAL = 0.005
 
+#: Largest difference between values that count as equal, as a share of the difference between the largest and the
+#: smallest value of the parameter.
+_EQUAL_SHARE = 0.02
+
 
 @dataclass(frozen=True)
 class Structure:
@@ -32,7 +36,9 @@ class Structure:
     p : float
         The probability that pure noise gives neighbouring residuals that are at least as similar as the residuals of
         the fit. Neighbours are readings that differ only in `parameter`. If several readings share each value of
-        `parameter`, the test also compares the means of the residuals at each value (analysis of variance).
+        `parameter`, the test also compares the means of the residuals at each value (analysis of variance). Values of a
+        parameter count as equal if they differ by at most 0.5 %, and by at most 2 % of the parameter's range in the
+        data. If the whole range is at most 0.5 %, all values count as equal.
     is_structured : bool
         True if the residuals have a pattern, which means that the model lacks an effect.
     """
@@ -51,7 +57,7 @@ class Layout:
         self.varied = [
             name for name, values in points.items() if isinstance(values, np.ndarray) and ranks[name].max(initial=0) > 0
         ]
-        #: The ranks of the values of each parameter; equal values have equal ranks.
+        #: The ranks of the values of each parameter. Values that count as equal have equal ranks.
         self.ranks = ranks
         self._branches = branches
 
@@ -67,12 +73,21 @@ class Layout:
 
 
 def _ranks(values: np.ndarray[Any, Any]) -> Places:
+    """Return the ranks of values of a parameter. Each rank begins with its smallest value, and contains the values that
+    count as equal to this value. If the whole range of the values is at most 0.5 %, all values count as equal.
+    """
     if values.dtype.kind != "f":
         return np.unique(values, return_inverse=True)[1].astype(np.intp)
     order = np.argsort(values, kind="stable")
-    ordered = values[order]
-    ranks = np.empty(len(values), np.intp)
-    ranks[order] = np.concatenate([[0], np.cumsum(np.diff(ordered) > _EQUAL * np.abs(ordered[1:]))])
+    span, tolerances = np.ptp(values), _EQUAL * np.abs(values)
+    if span > tolerances.max():
+        tolerances = np.minimum(tolerances, _EQUAL_SHARE * span)
+    ranks = np.zeros(len(values), np.intp)
+    rank, first = 0, values[order[0]]
+    for place in order:
+        if values[place] - first > tolerances[place]:
+            rank, first = rank + 1, values[place]
+        ranks[place] = rank
     return ranks
 
 
