@@ -83,7 +83,8 @@ def fit(
         If True, the number of computed points is shown. A progress function is called with two arguments, which are
         both the number of computed points.
     **keywords : float or str
-        Parameters that apply to all data, and solver settings.
+        Parameters of all data, and solver settings. If a data set has its own values of a parameter, these values
+        replace the keyword for this data set.
 
     Returns
     -------
