@@ -159,7 +159,8 @@ class Fit(Solution):
         Parameters
         ----------
         candidates : dict, DataFrame or Grid
-            Operating points that could be measured, as columns of parameters.
+            Operating points that could be measured, as columns of parameters. You can leave out parameters that have
+            the same value in all data sets.
         target : str or dict
             The parameter whose error is reduced, or a prediction such as ``{"measure": "lift_mean_mn",
             "drive_frequency": 110}``.
