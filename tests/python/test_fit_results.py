@@ -92,6 +92,38 @@ def test_next_measurements_shrink_the_error(found):
     assert found.next_measurements(grid, "drag_coefficient_max", count=2).points == told.points
 
 
+def test_a_grid_of_points_sets_its_fixed_parameters():
+    """The data share the voltage and an option; the keyword sets the voltage of the fit."""
+    points = {"drive_frequency": np.linspace(90.0, 130.0, 4), "drive_voltage_pp": np.full(4, 160.0)}
+    data = {name: cells for name, cells in readings(points=points).items() if name != "drive_voltage_pp"}
+    fixed = {name: TRUTH[name] for name in ("wing_inertia_stroke", "drag_coefficient_max")}
+    options = {"sigma": "3 %", "starts": 1, "profile": False, "drive_voltage_pp": 160.0, **fixed}
+    made = [
+        flapwing.fit(PRESET, one, ["hinge_stiffness"], **options)
+        for one in (data, flapwing.Readings(data, drive_voltage_pp=160.0))
+    ]
+    # 200 V is also the voltage of the preset.
+    for voltage in (100.0, 200.0):
+        params = {"drive_voltage_pp": voltage, "drive_shape": "square", "hinge_stiffness": 1e-6}
+        grid = flapwing.Grid({"preset": PRESET, "params": params, "axes": {"drive_frequency": [90.0, 100.0]}})
+        columns = {"drive_frequency": [90.0, 100.0], "drive_voltage_pp": voltage, "drive_shape": "square"}
+        for one in made:
+            told = one.predict(grid, "stroke_pp_deg")
+            np.testing.assert_array_equal(told.value, one.predict(columns, "stroke_pp_deg").value)
+            assert list(told.points["drive_voltage_pp"]) == [voltage] * 2 and "hinge_stiffness" not in told.points
+    single = flapwing.Grid({"preset": PRESET, "params": {"drive_frequency": 90.0}})
+    assert (
+        made[0].predict(single, "lift_mean_mn").value
+        == made[0].predict({"drive_frequency": 90.0}, "lift_mean_mn").value
+    )
+    for grid, says in [
+        ({"preset": "ozaki2018-large"}, "points is a grid of `direct-drive`, but the fit is of `bimorph`"),
+        ({"preset": PRESET, "params": {"drive_frequency": "resonance"}}, "points has no value of `drive_frequency`"),
+    ]:
+        with pytest.raises(ValueError, match=says):
+            made[0].predict(flapwing.Grid(grid), "stroke_pp_deg")
+
+
 def test_no_set_of_parameters_is_run_twice(found):
     """The last search ends where the profiles and the next round begin."""
     model = found._model

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _arguments
+from .._flapwing import Grid
 from .._types import Array, Mask, Value
 from . import _device, _plan, _report, _search, _solution
 from ._data import all_readings
@@ -109,7 +110,8 @@ class Fit(Solution):
         ----------
         points : dict, DataFrame or Grid
             Columns of parameters, as in `Readings`. You can leave out parameters that have the same value in all data
-            sets.
+            sets. A grid sets the parameters of its axes, its derived parameters, and the parameters in ``[params]``
+            that were not fitted. The remaining parameters of the grid's preset or device are not used.
         measure : str
             The measure to predict. The data need not have readings of the predicted measure.
         data_set : str, optional
@@ -298,8 +300,8 @@ class Fit(Solution):
 
     def _points(self, place: str, given: Any) -> dict[str, Any]:
         """Return operating points, with added columns for the parameters that have the same value in all data sets."""
-        points = points_of(self._model.names, place, given)
-        count = len(next(iter(points.values())))
+        points = points_of(self._model, place, given)
+        count = len(given) if isinstance(given, Grid) else len(next(iter(points.values())))
         for name, values in self._model.points.items():
             if name in points:
                 continue
