@@ -158,7 +158,7 @@ def finish(
         if kinds(sets)[measure] == "unknown":
             # The whole of the estimated standard error is discrepancy.
             guesses[measure] = 0.0
-    jacobian = target.jacobian(model.space, found.x, answer) / result.factors
+    jacobian = result.jacobian / result.factors
     slopes = model.space.slopes(found.x)
     made = Fit(
         model=model,
