@@ -6,7 +6,7 @@ from types import SimpleNamespace
 import flapwing
 import numpy as np
 import pytest
-from fits import PRESET, TRUE, readings
+from fits import PRESET, TRUE, TRUTH, readings
 from flapwing.fitting import _deciding, _subsets
 from flapwing.fitting._compare import Comparison
 from flapwing.fitting._criteria import criteria
@@ -148,6 +148,25 @@ def test_next_measurements_are_where_predictions_differ(compared):
     assert found.expected[0] == pytest.approx(gains[best], rel=1e-3)
     assert found.expected[0] < found.expected[1] < found.expected[2]
     assert "expected difference" in str(found)
+
+
+def test_candidates_have_the_parameters_that_all_data_share():
+    points = {"drive_frequency": np.linspace(75.0, 145.0, 8), "drive_voltage_pp": np.full(8, 120.0)}
+    data = readings(BOTH, points=points, stroke_loss_factor=0.2)
+    shared = flapwing.Readings(
+        {name: data[name] for name in ("drive_frequency", *BOTH)}, drive_voltage_pp="120 V", name="shared"
+    )
+    options = {**FAST, "wing_inertia_stroke": TRUTH["wing_inertia_stroke"]}
+    made = [
+        flapwing.fit(PRESET, shared, ["hinge_stiffness", *more], **options) for more in ([], ["drag_coefficient_max"])
+    ]
+    compared = flapwing.compare(made)
+    plan = compared.next_measurements({"drive_frequency": [110.0]}, count=1, measures=["stroke_pp_deg"])
+    assert plan.points == [{"drive_frequency": 110.0, "drive_voltage_pp": 120.0}]
+    predicted = [side.fit.predict({"drive_frequency": [110.0]}, "stroke_pp_deg").value[0] for side in compared._sides]
+    assert list(plan.values[0]) == predicted
+    with pytest.raises(ValueError, match="candidates has `hinge_stiffness`, which was fitted\nleave it out"):
+        compared.next_measurements({"drive_frequency": [110.0], "hinge_stiffness": 1e-6})
 
 
 def test_expected_differences_contain_the_new_fits():

@@ -94,6 +94,33 @@ def test_data_sets_share_parameters_or_have_their_own():
     assert soft.value[0] != stiff.value[0]
 
 
+def test_a_keyword_holds_for_data_without_a_column_of_it():
+    """One data set has the voltage itself; the other has the voltage, and an option, of the keywords."""
+    points = [{"drive_frequency": FREQUENCY[:6], "drive_voltage_pp": np.full(6, size)} for size in (100.0, 160.0)]
+    data = [readings(points=one, noise=0.0, field_transition="printed") for one in points]
+    bare = [{name: one[name] for name in ("drive_frequency", "stroke_pp_deg")} for one in data]
+    sets = [
+        flapwing.Readings(bare[0], drive_voltage_pp="100 V", field_transition="printed", name="own"),
+        flapwing.Readings(bare[1], name="keyword"),
+    ]
+    beside = {name: TRUTH[name] for name in ("wing_inertia_stroke", "drag_coefficient_max")}
+    keywords = {"drive_voltage_pp": "160 V", "field_transition": "printed", **beside}
+    result = flapwing.fit(PRESET, sets, ["hinge_stiffness"], sigma="1 deg", starts=1, profile=False, **keywords)
+    assert result.goodness.chi_square < 1e-3
+    assert result.values["hinge_stiffness"] == pytest.approx(TRUTH["hinge_stiffness"], rel=1e-4)
+    assert list(result._model.points["drive_voltage_pp"]) == [100.0] * 6 + [160.0] * 6
+    assert set(result._model.points["field_transition"]) == {"printed"}
+
+
+def test_data_without_operating_points_are_at_the_frequency_of_the_keyword():
+    exact = flapwing.run(PRESET, drive_frequency=100.0, **TRUTH)["stroke_pp_deg"]
+    beside = {name: value for name, value in TRUTH.items() if name != "hinge_stiffness"}
+    data = {"stroke_pp_deg": [exact + 0.1, exact - 0.1]}
+    keywords = {"drive_frequency": "0.1 kHz", "sigma": "1 deg", "starts": 1, "profile": False, **beside}
+    result = flapwing.fit(PRESET, data, ["hinge_stiffness"], **keywords)
+    assert result.values["hinge_stiffness"] == pytest.approx(TRUTH["hinge_stiffness"], rel=1e-3)
+
+
 @pytest.mark.parametrize(
     ("given", "low", "high"), [(None, 0.0, 1.0), ((0.0, None), 0.0, 1.0), ((None, "0.1 nN*m*s"), 0.0, None)]
 )

@@ -92,6 +92,81 @@ def test_next_measurements_shrink_the_error(found):
     assert found.next_measurements(grid, "drag_coefficient_max", count=2).points == told.points
 
 
+def test_next_measurements_are_readings_of_the_targets_data_set():
+    """Each of two robots has its own stiffness and its own standard error."""
+    points = {"drive_frequency": np.linspace(80.0, 140.0, 6), "drive_voltage_pp": np.full(6, 160.0)}
+    stiffness, sigma = {"soft": 0.9, "stiff": 1.2}, {"soft": "3 %", "stiff": "1 deg"}
+    sets = [
+        flapwing.Readings(
+            readings(points=points, hinge_stiffness=factor * TRUTH["hinge_stiffness"]), name=name, sigma=sigma[name]
+        )
+        for name, factor in stiffness.items()
+    ]
+    free = {"hinge_stiffness": flapwing.FreeParameter(per_set=True), "drag_coefficient_max": None}
+    fixed = {"wing_inertia_stroke": TRUTH["wing_inertia_stroke"]}
+    one = flapwing.fit(PRESET, sets, free, starts=1, profile=False, **fixed)
+    target = "hinge_stiffness of stiff"
+    plan = one.next_measurements({"drive_frequency": [105.0, 130.0]}, target, count=1)
+    assert plan.now == pytest.approx(one.estimates[target].error, rel=1e-3)
+    (frequency,) = (point["drive_frequency"] for point in plan.points)
+    # A fit with the planned reading has the error of the plan.
+    extra = {"drive_frequency": [frequency], "drive_voltage_pp": 160.0}
+    exact = one.predict(extra, "stroke_pp_deg", data_set="stiff").value
+    columns = {name: [*cells, *np.atleast_1d(extra[name])] for name, cells in points.items()}
+    columns["stroke_pp_deg"] = [*sets[1].columns["stroke_pp_deg"], *exact]
+    more = [sets[0], flapwing.Readings(columns, name="stiff", sigma="1 deg")]
+    again = flapwing.fit(PRESET, more, free, starts=1, profile=False, **fixed)
+    assert again.estimates[target].error == pytest.approx(plan.errors[0], rel=1e-3)
+    # Readings of the other robot reduce this error only through the shared drag.
+    other = one.next_measurements({"drive_frequency": [105.0, 130.0]}, target, count=1, data_set="soft")
+    assert plan.errors[0] < other.errors[0] < other.now == plan.now
+    goal = {"measure": "stroke_pp_deg", "drive_frequency": 105.0}
+    for name in stiffness:
+        now = one.next_measurements({"drive_frequency": 105.0}, goal, count=1, data_set=name).now
+        predicted = one.predict({"drive_frequency": 105.0}, "stroke_pp_deg", data_set=name)
+        assert now == pytest.approx(predicted.error[0], rel=1e-3)
+
+
+@pytest.mark.parametrize("loss", ["soft_l1", "cauchy"])
+def test_plans_of_robust_fits_begin_with_the_error_of_the_fit(loss):
+    one = flapwing.fit(PRESET, readings(), list(TRUE), sigma="3 %", starts=1, profile=False, loss=loss)
+    candidates = {"drive_frequency": [90.0, 110.0], "drive_voltage_pp": 160.0}
+    for name, estimate in one.estimates.items():
+        assert one.next_measurements(candidates, name, count=1).now == pytest.approx(estimate.error, rel=1e-3)
+
+
+def test_a_grid_of_points_sets_its_fixed_parameters():
+    """The data share the voltage and an option; the keyword sets the voltage of the fit."""
+    points = {"drive_frequency": np.linspace(90.0, 130.0, 4), "drive_voltage_pp": np.full(4, 160.0)}
+    data = {name: cells for name, cells in readings(points=points).items() if name != "drive_voltage_pp"}
+    fixed = {name: TRUTH[name] for name in ("wing_inertia_stroke", "drag_coefficient_max")}
+    options = {"sigma": "3 %", "starts": 1, "profile": False, "drive_voltage_pp": 160.0, **fixed}
+    made = [
+        flapwing.fit(PRESET, one, ["hinge_stiffness"], **options)
+        for one in (data, flapwing.Readings(data, drive_voltage_pp=160.0))
+    ]
+    # 200 V is also the voltage of the preset.
+    for voltage in (100.0, 200.0):
+        params = {"drive_voltage_pp": voltage, "drive_shape": "square", "hinge_stiffness": 1e-6}
+        grid = flapwing.Grid({"preset": PRESET, "params": params, "axes": {"drive_frequency": [90.0, 100.0]}})
+        columns = {"drive_frequency": [90.0, 100.0], "drive_voltage_pp": voltage, "drive_shape": "square"}
+        for one in made:
+            told = one.predict(grid, "stroke_pp_deg")
+            np.testing.assert_array_equal(told.value, one.predict(columns, "stroke_pp_deg").value)
+            assert list(told.points["drive_voltage_pp"]) == [voltage] * 2 and "hinge_stiffness" not in told.points
+    single = flapwing.Grid({"preset": PRESET, "params": {"drive_frequency": 90.0}})
+    assert (
+        made[0].predict(single, "lift_mean_mn").value
+        == made[0].predict({"drive_frequency": 90.0}, "lift_mean_mn").value
+    )
+    for grid, says in [
+        ({"preset": "ozaki2018-large"}, "points is a grid of `direct-drive`, but the fit is of `bimorph`"),
+        ({"preset": PRESET, "params": {"drive_frequency": "resonance"}}, "points has no value of `drive_frequency`"),
+    ]:
+        with pytest.raises(ValueError, match=says):
+            made[0].predict(flapwing.Grid(grid), "stroke_pp_deg")
+
+
 def test_no_set_of_parameters_is_run_twice(found):
     """The last search ends where the profiles and the next round begin."""
     model = found._model

@@ -36,6 +36,8 @@ class Assessed:
     covariance: Array
     #: The increase of the standard error of each coordinate by the discrepancy.
     factors: Array
+    #: The derivatives of the residuals and priors with respect to the coordinates, with the weights of the loss.
+    jacobian: Array
     discrepancy: Discrepancies
     goodness: Goodness
     outliers: list[Outlier]
@@ -81,6 +83,7 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
         _search.without(inverse, lost),
         _search.without(discrepancy.covariance, lost),
         np.where(np.isfinite(factors), np.maximum(factors, 1.0), 1.0),
+        jacobian,
         discrepancy,
         good,
         _listed(sets, scaled, is_far),

@@ -184,7 +184,8 @@ class Comparison:
         Parameters
         ----------
         candidates : dict, DataFrame or Grid
-            Operating points that could be measured, as columns of parameters.
+            Operating points that could be measured, as columns of parameters. You can leave out parameters that have
+            the same value in all data sets.
         count : int
             Number of readings to choose. A point can be chosen more than once.
         measures : list of str, optional
@@ -199,7 +200,8 @@ class Comparison:
         Raises
         ------
         ValueError
-            Raised if a name is unknown, or the data have no readings of a measure. Raised if no operating point has a
+            Raised if a name is unknown, or the data have no readings of a measure. Raised if `candidates` has a fitted
+            parameter, or lacks a parameter that has several values in the data. Raised if no operating point has a
             settled motion with the parameters of both fits.
         """
         return deciding_measurements(self._sides[:2], candidates, _arguments.count("count", count), measures)

@@ -12,7 +12,7 @@ from .._types import Array
 from . import _report
 from ._criteria import Criteria
 from ._data import all_readings, are_unknown, places_of
-from ._points import answers_at, cell, points_of
+from ._points import answers_at, cell
 from ._result import Fit
 from ._search import finite_covariance
 
@@ -132,7 +132,7 @@ def deciding_measurements(
     """Return the operating points at which new readings would decide best between two fits."""
     fits = [side.fit for side in sides]
     read = list(dict.fromkeys(fits[0]._model.asked.measure))
-    points = [points_of(fit._model.names, "candidates", candidates) for fit in fits]
+    points = [fit._points("candidates", candidates) for fit in fits]
     rows: list[tuple[int, str]] = []
     values: list[list[Array]] = [[], []]
     slopes: list[list[Array]] = [[], []]

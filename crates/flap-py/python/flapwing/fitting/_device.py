@@ -106,13 +106,7 @@ def _set(fit: Solution, labels: dict[str, str]) -> dict[str, Any]:
     """Return the parameters and the derived parameters of the design, and the parameters that were keywords of the call
     of `fit`.
     """
-    model = fit._model
-    given = {
-        name: value if name in model.names.options else _flapwing.value(model.names.model, name, value)
-        for name, value in model.keywords.items()
-        if name in model.names.parameters
-    }
-    return {**model.names.nominal, **given, **_derived(fit, labels)}
+    return {**fit._model.nominal, **_derived(fit, labels)}
 
 
 def _derived(fit: Solution, labels: dict[str, str]) -> dict[str, float]:

@@ -83,7 +83,8 @@ def fit(
         If True, the number of computed points is shown. A progress function is called with two arguments, which are
         both the number of computed points.
     **keywords : float or str
-        Parameters that apply to all data, and solver settings.
+        Parameters of all data, and solver settings. If a data set has its own values of a parameter, these values
+        replace the keyword for this data set.
 
     Returns
     -------
@@ -157,7 +158,7 @@ def finish(
         if kinds(sets)[measure] == "unknown":
             # The whole of the estimated standard error is discrepancy.
             guesses[measure] = 0.0
-    jacobian = target.jacobian(model.space, found.x, answer) / result.factors
+    jacobian = result.jacobian / result.factors
     slopes = model.space.slopes(found.x)
     made = Fit(
         model=model,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Container, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, SupportsIndex
 
@@ -88,7 +88,9 @@ class Model:
             for name, value in keywords.items()
             if value is not None
         }
-        self.points, self.branches = _points(names, sets)
+        #: The parameters of the design and of the keywords, in SI units.
+        self.nominal = {**names.nominal, **_si(names, self.keywords)}
+        self.points, self.branches = _points(names.options, sets, self.nominal)
         self.asked = _asked(sets)
         self.part = _part(self.points, self.branches, self.asked, held)
         #: Number of points that were run, and number of evaluations of the right-hand side.
@@ -262,13 +264,26 @@ def _length(points: Mapping[str, Any]) -> int:
     return len(next(iter(points.values())))
 
 
-def _points(names: Names, sets: Sequence[DataSet]) -> tuple[dict[str, Any], list[Branch]]:
-    """Return the operating points of all data sets as columns, and the branches of the data sets that have a branch."""
+def _si(names: Names, keywords: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the parameters among keywords: numbers in SI units, or options."""
+    return {
+        name: value if name in names.options else _flapwing.value(names.model, name, value)
+        for name, value in keywords.items()
+        if name in names.parameters
+    }
+
+
+def _points(
+    options: Container[str], sets: Sequence[DataSet], nominal: Mapping[str, Any]
+) -> tuple[dict[str, Any], list[Branch]]:
+    """Return the operating points of all data sets as columns, and the branches of the data sets that have a branch. A
+    parameter that a data set lacks has the value in `nominal`.
+    """
     varied = list(dict.fromkeys(name for one in sets for name in one.points)) or ["drive_frequency"]
     points: dict[str, Any] = {}
     for name in varied:
-        parts = [one.points.get(name, [names.nominal[name]] * len(one)) for one in sets]
-        if name in names.options:
+        parts = [one.points.get(name, [nominal[name]] * len(one)) for one in sets]
+        if name in options:
             points[name] = [cell for part in parts for cell in part]
         else:
             points[name] = np.concatenate([np.asarray(part, np.float64) for part in parts])

@@ -58,6 +58,7 @@ def plan(
     points: dict[str, Any],
     measures: Sequence[str],
     x: Array,
+    place: int,
     information: Array,
     target: Array,
     count: int,
@@ -65,7 +66,7 @@ def plan(
     errors_of: Callable[[str, Array], Array],
 ) -> tuple[list[int], list[str], list[float], float]:
     """Return the best next readings in order: rows of `points`, measures, errors of the target after each reading, and
-    the present error of the target.
+    the present error of the target. The readings have the parameters of the data set with the index `place`.
 
     A reading adds the outer product of the reading's derivatives, divided by the reading's variance, to the information
     matrix. The next reading is the candidate reading after which the variance of the target is smallest. `errors_of`
@@ -73,7 +74,7 @@ def plan(
     """
     rows, names, sensitivities = [], [], []
     for measure in measures:
-        answer = answers_at(model, points, measure, x)
+        answer = answers_at(model, points, measure, x, place)
         sigma = errors_of(measure, answer.values)
         for row in np.flatnonzero(np.isfinite(answer.values) & ~answer.gaps):
             rows.append(int(row))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tomllib
 from collections.abc import Mapping
 from typing import Any
 
@@ -14,7 +15,6 @@ from ._branches import Branch
 from ._cells import parameter_cells
 from ._data import DataSet
 from ._model import FINE, Answer, Asked, Model
-from ._names import Names
 
 
 def cell(value: Any) -> str:
@@ -22,11 +22,11 @@ def cell(value: Any) -> str:
     return value if isinstance(value, str) else f"{value:g}"
 
 
-def points_of(names: Names, place: str, given: Any) -> dict[str, Any]:
+def points_of(model: Model, place: str, given: Any) -> dict[str, Any]:
     """Return operating points, given as columns of parameters, a grid, or one point."""
     if isinstance(given, Grid):
-        listed = [given[row] for row in range(len(given))]
-        return {name: _column(names, [point[name] for point in listed], name) for name in given.varied}
+        return _of_grid(model, place, given)
+    names = model.names
     found = _arguments.columns_of(place, given)
     lists = {
         name: [cells] if isinstance(cells, str) or np.ndim(cells) == 0 else list(cells) for name, cells in found.items()
@@ -50,8 +50,30 @@ def points_of(names: Names, place: str, given: Any) -> dict[str, Any]:
     return {name: values if np.asarray(values).dtype.kind == "f" else list(values) for name, values in points.items()}
 
 
-def _column(names: Names, values: list[Any], name: str) -> Any:
-    return [str(value) for value in values] if name in names.options else np.array(values, np.float64)
+def _of_grid(model: Model, place: str, grid: Grid) -> dict[str, Any]:
+    """Return the points of a grid: the parameters that vary, and the parameters in ``[params]`` that differ from the
+    parameters of the fit. Fitted parameters in ``[params]`` have the values of the fit.
+    """
+    names = model.names
+    if grid.model != names.model:
+        raise ValueError(
+            f"{place} is a grid of `{grid.model}`, but the fit is of `{names.model}`\ngive a grid of `{names.model}`"
+        )
+    listed = [grid[row] for row in range(len(grid))]
+    fixed = [
+        name
+        for name in tomllib.loads(grid.text).get("params", {})
+        if name not in grid.varied and name not in model.space.parameters
+    ]
+    for name in fixed:
+        if name not in listed[0]:
+            raise ValueError(f"{place} has no value of `{name}`, which a sweep computes for each point\ngive a value")
+    chosen = [name for name in fixed if name in model.points or listed[0][name] != model.nominal[name]]
+    columns = {name: [point[name] for point in listed] for name in [*grid.varied, *chosen]}
+    return {
+        name: [str(value) for value in values] if name in names.options else np.array(values, np.float64)
+        for name, values in columns.items()
+    }
 
 
 def answers_at(

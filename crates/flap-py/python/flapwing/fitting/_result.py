@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from .. import _arguments
+from .._flapwing import Grid
 from .._types import Array, Mask, Value
 from . import _device, _plan, _report, _search, _solution
 from ._data import all_readings
@@ -109,7 +110,8 @@ class Fit(Solution):
         ----------
         points : dict, DataFrame or Grid
             Columns of parameters, as in `Readings`. You can leave out parameters that have the same value in all data
-            sets.
+            sets. A grid sets the parameters of its axes, its derived parameters, and the parameters in ``[params]``
+            that were not fitted. The remaining parameters of the grid's preset or device are not used.
         measure : str
             The measure to predict. The data need not have readings of the predicted measure.
         data_set : str, optional
@@ -153,13 +155,15 @@ class Fit(Solution):
         measures: Sequence[str] | None = None,
         sigma: Mapping[str, Value] | None = None,
         repeats: bool = False,
+        data_set: str | None = None,
     ) -> NextMeasurements:
         """Return the operating points at which readings would reduce the error of a parameter or a prediction most.
 
         Parameters
         ----------
         candidates : dict, DataFrame or Grid
-            Operating points that could be measured, as columns of parameters.
+            Operating points that could be measured, as columns of parameters. You can leave out parameters that have
+            the same value in all data sets.
         target : str or dict
             The parameter whose error is reduced, or a prediction such as ``{"measure": "lift_mean_mn",
             "drive_frequency": 110}``.
@@ -173,6 +177,10 @@ class Fit(Solution):
             without readings in the data.
         repeats : bool
             If True, a measure can be read several times at the same point.
+        data_set : str, optional
+            The data set whose parameters and standard errors the new readings have, such as the robot that you measure
+            next. A prediction in `target` has the same parameters. By default, the data set is the data set of the
+            parameter `target`, or the first data set. All motions start from rest.
 
         Returns
         -------
@@ -184,23 +192,24 @@ class Fit(Solution):
         ------
         ValueError
             Raised if a name is unknown, a standard error is missing, `candidates` has no points, or no point has a
-            settled motion.
+            settled motion. Raised if `candidates` has a fitted parameter, or lacks a parameter that has several values
+            in the data.
         """
         repeats = _arguments.flag("repeats", repeats)
         count = _arguments.count("count", count)
         points = self._points("candidates", candidates)
-        slopes, name, unit = self._target(target)
+        slopes, name, unit, place = self._target(target, data_set)
         given = {} if sigma is None else dict(sigma)
         known = [measure for one in self._sets for measure in one.measured]
         wanted = list(dict.fromkeys(measures if measures is not None else [*known, *given]))
-        noises = {measure: self._noise(measure, given) for measure in wanted}
+        noises = {measure: self._noise(measure, given, self._sets[place].name) for measure in wanted}
 
         def errors_of(measure: str, values: Array) -> Array:
             noise = noises[measure].of(values, np.nan_to_num(values), self._guesses.get(measure, 1.0))
             return np.hypot(noise, self._discrepancy_of(measure, values))
 
         rows, chosen, errors, now = _plan.plan(
-            self._model, points, wanted, self._x, self._information, slopes, count, repeats, errors_of
+            self._model, points, wanted, self._x, place, self._information, slopes, count, repeats, errors_of
         )
         return NextMeasurements(
             name, unit, now, [{key: values[row] for key, values in points.items()} for row in rows], chosen, errors
@@ -268,37 +277,39 @@ class Fit(Solution):
             error[mine] = np.hypot(error[mine], self._discrepancy_of(measure, answer.values[mine]))
         self.held_out = _solution.held_out(names, all_readings(self._sets), answer.values, held, self._quantile * error)
 
-    def _target(self, target: str | Mapping[str, Any]) -> tuple[Array, str, str]:
-        """Return the derivatives of a target with respect to the search coordinates, and the name and the unit of the
-        target. A target is a parameter or a prediction.
+    def _target(self, target: str | Mapping[str, Any], data_set: str | None) -> tuple[Array, str, str, int]:
+        """Return the derivatives of a target with respect to the search coordinates, the name and the unit of the
+        target, and the index of the data set of new readings. A target is a parameter or a prediction.
         """
         space = self._model.space
+        chosen = None if data_set is None else self._place(data_set)
         if isinstance(target, str):
             if target not in space.labels:
                 raise ValueError(
                     f"`{target}` was not fitted\nchoose among {', '.join(space.labels)}, or give a prediction"
                 )
             place = space.labels.index(target)
+            one = space.coordinates[place]
             slopes = np.zeros(len(space))
             slopes[place] = space.slopes(self._x)[place]
-            return slopes, target, space.coordinates[place].unit
+            return slopes, target, one.unit, (one.of_set or 0) if chosen is None else chosen
         if not isinstance(target, Mapping) or "measure" not in target:
             raise ValueError(
                 '`target` must be a parameter, or a prediction: {"measure": "lift_mean_mn", "drive_frequency": 110}'
             )
         measure = str(target["measure"])
         points = self._points("target", {name: value for name, value in target.items() if name != "measure"})
-        answer = answers_at(self._model, points, measure, self._x)
+        answer = answers_at(self._model, points, measure, self._x, chosen or 0)
         if len(answer.values) != 1 or not np.isfinite(answer.values[0]) or answer.gaps[0]:
             raise ValueError(
                 f"`{measure}` has no derivatives at this point, or there are several\nchoose another point"
             )
-        return answer.slopes[0], measure, self._model.names.unit(measure)
+        return answer.slopes[0], measure, self._model.names.unit(measure), chosen or 0
 
     def _points(self, place: str, given: Any) -> dict[str, Any]:
         """Return operating points, with added columns for the parameters that have the same value in all data sets."""
-        points = points_of(self._model.names, place, given)
-        count = len(next(iter(points.values())))
+        points = points_of(self._model, place, given)
+        count = len(given) if isinstance(given, Grid) else len(next(iter(points.values())))
         for name, values in self._model.points.items():
             if name in points:
                 continue

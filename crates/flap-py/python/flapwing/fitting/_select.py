@@ -202,7 +202,7 @@ def select(
     profile : bool
         True if the final fit computes profiles.
     **keywords : float or str
-        Parameters that apply to all data, and solver settings.
+        Parameters of all data, and solver settings, as for `fit`.
 
     Returns
     -------
