@@ -68,6 +68,21 @@ fn parse_trimmed(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     }
 }
 
+/// Returns the value in SI units of the quantity `text`, or of a number in SI units without a unit.
+///
+/// # Errors
+/// Returns the errors of [`parse_as`], except the error about a missing unit.
+///
+/// ```
+/// use flap_sweep::notation::units::parse_or_si;
+/// assert_eq!((parse_or_si("2 kV", "V").unwrap(), parse_or_si("2", "V").unwrap()), (2000.0, 2.0));
+/// assert!(parse_or_si("110%", "V").is_err() && parse_or_si("45 deg", "Hz").is_err());
+/// assert_eq!((parse_or_si("5%", "").unwrap(), parse_or_si("50 mrad", "rad").unwrap()), (0.05, 0.05));
+/// ```
+pub fn parse_or_si(text: &str, si_unit: &str) -> Result<f64, UnitError> {
+    parse_as(text, if has_unit(text) { si_unit } else { "" })
+}
+
 /// Returns true if a text is a number with a unit or `%`.
 ///
 /// ```
