@@ -68,6 +68,19 @@ fn parse_trimmed(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     }
 }
 
+/// Returns the value in `unit` of the quantity `text`. The unit may have a prefix or a factor, such as `mN` or `deg`.
+///
+/// # Errors
+/// Returns the errors of [`parse_as`].
+///
+/// ```
+/// use flap_sweep::notation::units::parse_in;
+/// assert_eq!((parse_in("2 N", "mN").unwrap(), parse_in("2 N", "N").unwrap()), (2000.0, 2.0));
+/// ```
+pub fn parse_in(text: &str, unit: &str) -> Result<f64, UnitError> {
+    Ok(parse_as(text, unit)? / parse_as(&format!("1 {unit}"), unit).unwrap_or(1.0))
+}
+
 /// Returns the value in SI units of the quantity `text`, or of a number in SI units without a unit.
 ///
 /// # Errors
