@@ -36,7 +36,8 @@ pub(super) struct Axis {
     pub(super) best: Place,
     /// The smallest and the largest value among the best tenth of the rows, or all words for a column of words.
     pub(super) best_tenth: Vec<Place>,
-    /// True if the best value is the first or the last value of an axis with three or more numbers. False for a sample.
+    /// True if the best value is the first or the last value of an axis with three or more numbers. False for parameters
+    /// of a sample.
     pub(super) at_the_end: bool,
 }
 
@@ -74,7 +75,7 @@ impl Best {
             value: numbers[row],
             point: point(table, row),
             axes: (axes.listed().into_iter())
-                .map(|axis| Axis::of(table, axis, &ranked, axes.sampled))
+                .map(|axis| Axis::of(table, axis, &ranked, axes.members.contains(&axis)))
                 .collect(),
         }))
     }
