@@ -337,6 +337,17 @@ fn all_parameters_of_a_sample_are_described() {
     assert!(axes(&json(&folder, "describe rows.csv")).len() >= 2);
 }
 
+/// In a file without the index of the point, the best row has its number in the file, also among selected rows.
+#[test]
+fn the_best_row_has_its_number_in_the_file() {
+    let folder = Folder::new();
+    fs::write(folder.path("rows.csv"), "mass,lift_mean_mn\n1,9\n2,4\n3,5\n4,7\n").unwrap();
+    for (options, point) in [("", 0), ("--where mass>1.5", 3), ("--where mass=3", 2)] {
+        let described = json(&folder, &format!("describe rows.csv --by lift_mean_mn {options}"));
+        assert_eq!(described["best"][0]["point"], point, "{options}");
+    }
+}
+
 /// An axis that is crossed with a sample has ends, the parameters of the sample have none.
 #[test]
 fn axes_crossed_with_a_sample_have_ends() {
