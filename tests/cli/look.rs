@@ -337,6 +337,34 @@ fn all_parameters_of_a_sample_are_described() {
     assert!(axes(&json(&folder, "describe rows.csv")).len() >= 2);
 }
 
+/// In a file without the index of the point, the best row has its number in the file, also among selected rows.
+#[test]
+fn the_best_row_has_its_number_in_the_file() {
+    let folder = Folder::new();
+    fs::write(folder.path("rows.csv"), "mass,lift_mean_mn\n1,9\n2,4\n3,5\n4,7\n").unwrap();
+    for (options, point) in [("", 0), ("--where mass>1.5", 3), ("--where mass=3", 2)] {
+        let described = json(&folder, &format!("describe rows.csv --by lift_mean_mn {options}"));
+        assert_eq!(described["best"][0]["point"], point, "{options}");
+    }
+}
+
+/// An axis that is crossed with a sample has ends, the parameters of the sample have none.
+#[test]
+fn axes_crossed_with_a_sample_have_ends() {
+    let folder = swept(
+        "preset = \"ozaki2018-large\"\n[axes]\ndrive_voltage_pp = [20, 30, 40]\n[sample]\nmethod = \"sobol\"\nn = 4\n\
+         [sample.parameters]\nhinge_stiffness = { from = 8e-5, to = 1e-4 }\n\
+         air_density = { from = 1.1, to = 1.3 }\n",
+    );
+    let axes = json(&folder, "describe rows.csv --by power_mean_mw --aim max")["best"][0]["axes"].clone();
+    let ends =
+        axes.as_array().unwrap().iter().map(|axis| (axis["axis"].as_str(), axis["at_the_end"] == true));
+    let mut ends: Vec<_> = ends.collect();
+    ends.sort_unstable();
+    let wanted = [("air_density", false), ("drive_voltage_pp", true), ("hinge_stiffness", false)];
+    assert_eq!(ends, wanted.map(|(name, is_end)| (Some(name), is_end)));
+}
+
 #[test]
 fn words_are_counted() {
     let grid =

@@ -217,6 +217,11 @@ fn mistakes_are_told() {
             "jafferis2016 --from 1 --to 2 --step 1V".to_owned(),
             "--step 1V: `V` is a voltage, but the value is in Hz",
         ),
+        (
+            "jafferis2016 --from 1 --to 2 --step 5%".to_owned(),
+            "--step 5%: `%` is a pure number, but the value is in Hz",
+        ),
+        ("jafferis2016 --from 45deg --to 60 --step 1".to_owned(), "`deg` is an angle, but"),
         ("jafferis2016 --from 1 --to 2 --step 1e999".to_owned(), "`1e999` is too large for "),
         (
             "jafferis2016 --from 130 --to 120 --step 1".to_owned(),

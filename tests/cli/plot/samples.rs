@@ -176,6 +176,30 @@ fn two_measures_along_one_axis_are_no_front() {
     drawn(&folder, "line.csv").says("response in out.svg");
 }
 
+/// Derivatives belong to the same value of a crossed axis as the drawn rows.
+#[test]
+fn derivatives_are_at_the_drawn_value_of_an_axis() {
+    let sample = "[sample]\nn = 16\nmethod = \"sobol\"\n[sample.parameters]\n\
+                  hinge_stiffness = { relative_sd = \"1 %\" }\nair_density = { relative_sd = \"1 %\" }\n\
+                  [output]\ncolumns = [\"lift_mean_mn\"]\n";
+    let axes = "[axes]\ndrive_voltage_pp = [\"40 V\", \"80 V\"]\n";
+    let folder = Folder::with_grid(&format!("preset = \"ozaki2018-large\"\n{axes}{sample}"));
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let all_together = |options: &str| -> [f64; 2] {
+        let ended = folder
+            .ends(0, &format!("plot rows.csv --kind tornado --derivatives --out out.svg --force {options}"));
+        let cells: Vec<&str> = ended.stdout.lines().last().unwrap().split_whitespace().collect();
+        [2, 1].map(|from_end| cells[cells.len() - from_end].parse().unwrap())
+    };
+    let [low, high] = [40, 80].map(|voltage| {
+        let [derivatives, sample] = all_together(&format!("--where drive_voltage_pp={voltage}"));
+        assert!((derivatives - sample).abs() < 0.1 * sample, "{voltage} V: {derivatives} {sample}");
+        derivatives
+    });
+    assert!(high > 1.5 * low, "{low} {high}");
+    assert_eq!(all_together("")[0], high, "the drawn slice is at 80 V");
+}
+
 /// For small deviations a measure is linear in the parameters, so derivatives and sample have the same effects.
 #[test]
 fn effects_from_derivatives_and_from_the_sample_agree() {

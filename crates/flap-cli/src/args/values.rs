@@ -123,7 +123,7 @@ pub(super) fn time(text: &str) -> Result<f64, String> {
 
 /// Parses a frequency with or without a unit and returns it in Hz.
 pub(super) fn frequency(text: &str) -> Result<f64, String> {
-    units::parse_as(text, "").or_else(|_| quantity(text, "Hz", "120 Hz"))
+    quantity(text, if units::has_unit(text) { "Hz" } else { "" }, "120 Hz")
 }
 
 /// Parses a number with a unit and returns it in `si_unit`.
@@ -148,4 +148,17 @@ pub(super) fn status(text: &str) -> Result<Status, String> {
         let hint = nearest(text, names).map_or_else(String::new, |name| format!("; did you mean `{name}`?"));
         format!("statuses are {}{hint}", names.join(", "))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn frequencies_have_no_unit_of_another_dimension() {
+        assert_eq!([frequency("120"), frequency("0.12 kHz")], [Ok(120.0), Ok(120.0)]);
+        for text in ["45 deg", "110%", "3 V", "fast"] {
+            assert!(frequency(text).is_err(), "{text}");
+        }
+    }
 }

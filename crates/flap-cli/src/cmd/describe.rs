@@ -29,11 +29,22 @@ pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
     let source = Source::open(results, read, true)?;
     let filters = Filters::of(filters, &source)?;
     let asked = Asked::of(args, &source)?;
-    let table = source.read_kept(|column| asked.is_read[column], usize::MAX, |row| filters.keep(row))?;
+    // The numbers of the rows that are kept.
+    let (mut places, mut rows) = (Vec::new(), 0..);
+    let table = source.read_kept(
+        |column| asked.is_read[column],
+        usize::MAX,
+        |row| {
+            let place = rows.next();
+            let is_kept = filters.keep(row)?;
+            places.extend(place.filter(|_| is_kept));
+            Ok(is_kept)
+        },
+    )?;
     if table.rows == 0 {
         return Err(args.look.no_rows(&filters));
     }
-    let description = describe(&table, &asked, args)?;
+    let description = describe(&table, &asked, args, &places)?;
     console::results(&show::text(&description, *format)?)?;
     Ok(Exit::Done)
 }
@@ -74,7 +85,12 @@ impl Asked {
     }
 }
 
-fn describe(table: &Table, asked: &Asked, args: &DescribeArgs) -> Result<Description, Failure> {
+fn describe(
+    table: &Table,
+    asked: &Asked,
+    args: &DescribeArgs,
+    places: &[u64],
+) -> Result<Description, Failure> {
     let (statuses, rows) = match asked.status {
         Some(status) => statuses(table, status, args.look.all),
         None => (Vec::new(), (0..table.rows).collect()),
@@ -95,7 +111,7 @@ fn describe(table: &Table, asked: &Asked, args: &DescribeArgs) -> Result<Descrip
     let mut best = Vec::new();
     for &column in &asked.by {
         let aim = args.look.aim.unwrap_or_else(|| Aim::of(&table.columns[column].name));
-        let found = Best::of(table, column, aim, &rows, &axes)?;
+        let found = Best::of(table, column, aim, &rows, &axes, places)?;
         if found.is_none() && !args.by.is_empty() {
             return Err(args.look.without(&table.columns[column].name));
         }

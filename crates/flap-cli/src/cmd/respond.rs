@@ -131,8 +131,7 @@ fn impossible(AlongError { message, help }: AlongError) -> Failure {
 
 /// Parses a step, which is more than zero.
 fn difference(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
-    let number = units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit));
-    let number = number.map_err(|error| {
+    let number = units::parse_or_si(text, parameter.unit).map_err(|error| {
         let failure = Failure::usage(format!("{option} {text}: {}", error.message("the value")));
         failure.helps(error.help())
     })?;

@@ -51,9 +51,9 @@ impl Shown {
 
     /// Returns a cell: a number with six digits, or a word.
     pub(super) fn cell(&self, cell: &str) -> String {
-        let is_whole = cell.parse::<u64>().is_ok();
+        let is_kept = self.factor == 1.0 && cell.parse::<u64>().is_ok();
         match cell.parse() {
-            Ok(number) if !is_whole => self.number(number),
+            Ok(number) if !is_kept => self.number(number),
             _ => cell.to_owned(),
         }
     }
@@ -78,6 +78,8 @@ mod tests {
     fn cells_keep_whole_numbers_and_words() {
         let shown = Shown::new("N*m/rad", [1.6e-4, f64::NAN]);
         assert_eq!(shown.cell("8.64e-5"), "86.4");
+        let modulus = Shown::new("Pa", [62e9]);
+        assert_eq!((modulus.unit(), modulus.cell("62000000000").as_str()), ("GPa", "62"));
         let plain = Shown::new("", []);
         assert_eq!(["12", "", "up", "inf"].map(|cell| plain.cell(cell)), ["12", "", "up", "inf"]);
     }

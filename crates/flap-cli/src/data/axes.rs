@@ -8,7 +8,8 @@ use super::levels::{Levels, Values};
 /// The parameters that a file varies.
 #[derive(Clone)]
 pub(crate) struct Axes {
-    /// Columns with more than one value, except columns whose values follow from the values of an earlier column.
+    /// Columns with more than one value, except derived parameters and columns whose values follow from the values of
+    /// an earlier column.
     pub(crate) columns: Vec<usize>,
     /// True for a sample: most values differ, so the points form no grid.
     pub(crate) sampled: bool,
@@ -34,7 +35,8 @@ impl Axes {
             if levels.len() < 2 {
                 continue;
             }
-            let follows = kept.iter().any(|(_, earlier)| levels.follow(earlier));
+            let follows = table.derived.contains(&table.columns[column].name)
+                || kept.iter().any(|(_, earlier)| levels.follow(earlier));
             if follows { &mut others } else { &mut kept }.push((column, levels));
         }
         let sample = sample(table, &kept, &others);
@@ -99,12 +101,9 @@ impl Ends {
 /// from the columns of the sample.
 fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let standing = || kept.iter().filter(|(column, _)| sample.contains(column));
-    let is_member = |(column, levels): &&Varied| {
-        if table.sample.is_empty() {
-            standing().any(|(_, first)| levels.follow(first))
-        } else {
-            table.sample.contains(&table.columns[*column].name)
-        }
+    let is_member = |(column, levels): &&Varied| match &table.sample {
+        Some(sample) => sample.contains(&table.columns[*column].name),
+        None => standing().any(|(_, first)| levels.follow(first)),
     };
     let mut members: Vec<usize> =
         standing().chain(others.iter().filter(is_member)).map(|(column, _)| *column).collect();
@@ -117,8 +116,8 @@ fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) 
 fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let full = |levels: &Levels| levels.len() * 2 > table.rows && table.rows > 3;
     let looks_sampled = |(column, levels): &&Varied| {
-        if !table.sample.is_empty() {
-            let is_named = |column: usize| table.sample.contains(&table.columns[column].name);
+        if let Some(sample) = &table.sample {
+            let is_named = |column: usize| sample.contains(&table.columns[column].name);
             let followers = others.iter().filter(|(_, other)| other.follow(levels));
             return is_named(*column) || followers.map(|(other, _)| *other).any(is_named);
         }
@@ -197,9 +196,24 @@ mod tests {
         assert_eq!((&axes.columns, axes.sampled), (&vec![1, 3], true));
         assert_eq!((&axes.members, axes.listed()), (&vec![1, 2], vec![1, 2, 3]));
         // The sidecar takes precedence: these are designs of a list.
-        crossed.sample = vec!["other".to_owned()];
+        crossed.sample = Some(vec!["other".to_owned()]);
         assert!(!Axes::of(&crossed, 4).sampled);
-        crossed.sample = vec!["b".to_owned()];
+        crossed.sample = Some(vec!["b".to_owned()]);
         assert!(Axes::of(&crossed, 4).sampled);
+    }
+
+    #[test]
+    fn derived_parameters_are_no_axes() {
+        // The product of two axes has a different value in each row, as a sample has.
+        let mut table = table(&[
+            ("v", &[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]),
+            ("f", &[10.0, 20.0, 35.0, 10.0, 20.0, 35.0]),
+            ("product", &[10.1, 20.2, 35.3, 20.4, 40.5, 70.6]),
+        ]);
+        assert!(Axes::of(&table, 4).sampled, "without a sidecar");
+        table.sample = Some(Vec::new());
+        table.derived = vec!["product".to_owned()];
+        let axes = Axes::of(&table, 4);
+        assert_eq!((axes.columns, axes.sampled, axes.members), (vec![1, 2], false, vec![]));
     }
 }

@@ -13,8 +13,10 @@ pub(crate) struct Table {
     pub(crate) rows: usize,
     /// Number of rows in the file.
     pub(crate) of: usize,
-    /// Parameters of the sample, if the sidecar lists sampled parameters.
-    pub(crate) sample: Vec<String>,
+    /// Parameters of the sample, from the sidecar; `None` if it is unknown whether the points are a sample.
+    pub(crate) sample: Option<Vec<String>>,
+    /// Derived parameters, if the sidecar lists derived parameters.
+    pub(crate) derived: Vec<String>,
     /// Refined axes, along which points were added between the values, if the sidecar lists refined axes.
     pub(crate) refined: Vec<RefinedAxis>,
 }
@@ -107,7 +109,8 @@ pub(crate) mod tests {
             columns: std::iter::once(first).chain(rest).collect(),
             rows,
             of: rows,
-            sample: Vec::new(),
+            sample: None,
+            derived: Vec::new(),
             refined: Vec::new(),
         }
     }

@@ -261,7 +261,7 @@ pub(crate) fn number(name: &str, unit: &str, text: &str) -> Result<Option<f64>, 
     if let Ok(number) = text.parse() {
         return Ok(Some(number));
     }
-    match units::parse_as(text, unit) {
+    match units::parse_in(text, unit) {
         Ok(number) => Ok(Some(number)),
         Err(error) if error.problem == units::UnitProblem::NoNumber => Ok(None),
         Err(error) => {
@@ -364,4 +364,25 @@ fn value(name: &str, cell: &str) -> Result<f64, Failure> {
         Failure::usage(format!("column `{name}` contains text such as `{cell}`, and text has no order"))
             .help(format!("write --where {name}={cell}"))
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_in_the_unit_of_the_column() {
+        for (unit, text, wanted) in [
+            ("deg", "60 deg", 60.0),
+            ("mN", "0.002 N", 2.0),
+            ("Hz", "0.12 kHz", 120.0),
+            ("deg", "60", 60.0),
+            ("", "5 %", 0.05),
+        ] {
+            let found = number("measure", unit, text).ok().flatten().unwrap();
+            assert!(is_same(found, wanted), "{text}: {found} {unit}");
+        }
+        assert!(number("measure", "deg", "60 V").is_err());
+        assert!(matches!(number("measure", "", "up"), Ok(None)));
+    }
 }

@@ -25,8 +25,10 @@ const MOST_ROWS: usize = 20_000_000;
 pub(crate) struct Source {
     reader: Reader,
     units: Units,
-    /// Parameters of the sample, if the sidecar lists sampled parameters.
-    sample: Vec<String>,
+    /// Parameters of the sample, from the sidecar; `None` if it is unknown whether the points are a sample.
+    sample: Option<Vec<String>>,
+    /// Derived parameters, if the sidecar lists derived parameters.
+    derived: Vec<String>,
     /// Refined axes, if the sidecar lists refined axes.
     refined: Vec<RefinedAxis>,
     /// The plan of the sidecar.
@@ -55,9 +57,10 @@ impl Source {
         }
         let plan = plan_beside(path, sidecar.as_ref());
         let units = Units::of(plan.as_ref());
-        let sample = plan.as_ref().map(sampled).unwrap_or_default();
+        let sample = plan.as_ref().and_then(sampled);
+        let derived = plan.as_ref().map(derived).unwrap_or_default();
         let refined = plan.as_ref().map(refined).unwrap_or_default();
-        Ok(Source { reader, units, sample, refined, plan, path: path.to_owned(), tells })
+        Ok(Source { reader, units, sample, derived, refined, plan, path: path.to_owned(), tells })
     }
 
     pub(crate) fn names(&self) -> &[String] {
@@ -81,7 +84,7 @@ impl Source {
 
     /// Returns the parameters of the sample, if the sidecar lists sampled parameters.
     pub(crate) fn sample(&self) -> &[String] {
-        &self.sample
+        self.sample.as_deref().unwrap_or_default()
     }
 
     /// Reads the next row into `row`; returns false after the last row.
@@ -145,7 +148,14 @@ impl Source {
             let unit = self.units.of_column(&name);
             Column { name, unit, cells: gathered.cells }
         });
-        Ok(Table { columns: columns.collect(), rows, of, sample: self.sample, refined: self.refined })
+        Ok(Table {
+            columns: columns.collect(),
+            rows,
+            of,
+            sample: self.sample,
+            derived: self.derived,
+            refined: self.refined,
+        })
     }
 }
 
@@ -227,12 +237,20 @@ fn plan_beside(results: &Path, sidecar: Option<&Sidecar>) -> Option<Plan> {
     plan
 }
 
-/// Returns the names of the sampled parameters of a plan.
-fn sampled(plan: &Plan) -> Vec<String> {
+/// Returns the names of the sampled parameters of a plan; `None` if an axis lists values of several parameters, because
+/// a list may contain the points of a sample.
+fn sampled(plan: &Plan) -> Option<Vec<String>> {
     let parameters = plan.parameters();
     let is_sampled = |values: &Values| matches!(values, Values::Sampled { .. } | Values::Correlated { .. });
     let sampled = plan.axes().parameters().filter(|(_, values)| is_sampled(values));
-    sampled.map(|&(place, _)| parameters[place].name.to_owned()).collect()
+    let sampled: Vec<String> = sampled.map(|&(place, _)| parameters[place].name.to_owned()).collect();
+    let is_listed = plan.axes().as_slice().iter().any(|axis| axis.parameters().len() > 1);
+    (!sampled.is_empty() || !is_listed).then_some(sampled)
+}
+
+/// Returns the names of the derived parameters of a plan.
+fn derived(plan: &Plan) -> Vec<String> {
+    plan.derived().parameters().map(|place| plan.parameters()[place].name.to_owned()).collect()
 }
 
 /// Returns the axes along which the refinement of a plan adds points.

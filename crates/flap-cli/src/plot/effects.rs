@@ -175,7 +175,7 @@ fn effects(table: &Table, selection: &Selection, plan: Option<&Plan>) -> Result<
             Cells::Numbers(numbers) => Some((column, of_rows(numbers))),
             _ => None,
         })
-        .filter(|(_, numbers)| covariance(numbers, numbers) > 0.0)
+        .filter(|(_, numbers)| is_varied(numbers))
         .collect();
     if varied.is_empty() {
         let message = "no parameter has several values in the selected rows: there is nothing to compare";
@@ -234,23 +234,35 @@ fn slopes(
             .help("add [gradient] to the grid file, or put FILE.meta.toml beside the results")
     })?;
     console::say("derivatives are computed at the means of the parameters");
-    at_means(table, name(measure), varied, plan)
+    let point = table.numbers(0)?[rows[0]];
+    at_means(table, name(measure), varied, plan, point)
 }
 
-/// Computes the derivatives of a measure at the means of the varied parameters.
+/// Computes the derivatives of a measure at the means of the varied parameters. The other parameters have their values
+/// in the point with the index `point`.
 fn at_means(
     table: &Table,
     measure: &str,
     varied: &[(usize, Vec<f64>)],
     plan: &Plan,
+    point: f64,
 ) -> Result<Vec<f64>, Failure> {
+    if !plan.is_direct() {
+        let message = "flap cannot compute derivatives of designs at resonance or at hover";
+        return Err(Failure::usage(message).help("draw the tornado without --derivatives"));
+    }
     let place = plan.simulator().columns().iter().position(|column| column.name == measure);
     let place = place.ok_or_else(|| {
         let message = format!("flap cannot compute derivatives of {measure} from the sidecar");
         Failure::usage(message).help("add [gradient] to the grid file, and sweep it again")
     })?;
     let parameter = |column: usize| Parameter::index(plan.parameters(), &table.columns[column].name);
-    let mut values = plan.point(0).values;
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number from 0")]
+    let index = Some(point as u64).filter(|&index| index < plan.len()).ok_or_else(|| {
+        let message = format!("the grid file in the sidecar has no point {point}");
+        Failure::usage(message).help("add [gradient] to the grid file, and sweep it again")
+    })?;
+    let mut values = plan.point(index).values;
     for (column, numbers) in varied {
         if let Some(index) = parameter(*column) {
             values[index] = numbers.iter().sum::<f64>() / numbers.len() as f64;
@@ -275,6 +287,12 @@ fn at_means(
     Ok(varied.iter().map(|(column, _)| slope(*column).unwrap_or(f64::NAN)).collect())
 }
 
+/// Returns true if a column has several values and no gaps. Rounding in the covariance of equal values is no variation.
+fn is_varied(numbers: &[f64]) -> bool {
+    numbers.iter().all(|number| number.is_finite())
+        && scale::range(numbers.iter().copied()).is_some_and(|(low, high)| low < high)
+}
+
 /// Returns the covariance of two columns; 0 if there are fewer than two rows.
 fn covariance(x: &[f64], y: &[f64]) -> f64 {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
@@ -292,6 +310,12 @@ mod tests {
         assert_eq!(covariance(&[1.0, 2.0, 3.0], &[2.0, 4.0, 6.0]), 2.0);
         assert_eq!(covariance(&[1.0, 2.0, 3.0], &[1.0, 1.0, 1.0]), 0.0);
         assert_eq!(covariance(&[5.0], &[5.0]), 0.0);
+    }
+
+    #[test]
+    fn equal_values_are_not_varied() {
+        let same = [0.1; 6];
+        assert!(!is_varied(&same) && !is_varied(&[1.0, f64::NAN]) && is_varied(&[1.0, 1.0, 1.5]));
     }
 
     #[test]

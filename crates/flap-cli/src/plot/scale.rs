@@ -73,7 +73,7 @@ pub(super) fn is_log(values: &[f64]) -> bool {
 }
 
 /// Returns at most about `most` points of a line, in their order. The function keeps the ends and the extremes of each
-/// part of the line, so that peaks remain.
+/// part of the line, so that peaks remain, and one NaN of each part, so that gaps remain.
 pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
     if points.len() <= most {
         return points.to_vec();
@@ -81,11 +81,14 @@ pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
     let stretch = points.len().div_ceil((most / 4).max(1));
     let mut kept = Vec::with_capacity(most);
     for (number, part) in points.chunks(stretch).enumerate() {
-        let by_height = |a: &&usize, b: &&usize| part[**a].1.total_cmp(&part[**b].1);
-        let places: Vec<usize> = (0..part.len()).collect();
-        let low = places.iter().min_by(by_height).copied().unwrap_or(0);
-        let high = places.iter().max_by(by_height).copied().unwrap_or(0);
-        let mut chosen = vec![0, low, high, part.len() - 1];
+        let by_height = |a: &usize, b: &usize| part[*a].1.total_cmp(&part[*b].1);
+        let (gaps, numbers): (Vec<usize>, Vec<usize>) =
+            (0..part.len()).partition(|&place| part[place].1.is_nan());
+        let low = numbers.iter().copied().min_by(by_height);
+        let high = numbers.iter().copied().max_by(by_height);
+        let ends = [0, part.len() - 1];
+        let mut chosen: Vec<usize> =
+            ends.into_iter().chain(low).chain(high).chain(gaps.first().copied()).collect();
         chosen.sort_unstable();
         chosen.dedup();
         kept.extend(chosen.into_iter().map(|place| points[number * stretch + place]));
@@ -149,6 +152,12 @@ mod tests {
         assert_eq!((kept[0], kept[kept.len() - 1]), (points[0], points[9999]));
         assert!(kept.is_sorted_by(|a, b| a.0 < b.0));
         assert_eq!(thinned(&points[..50], 400), points[..50]);
+        // A gap in the same part of the line hides no peak.
+        let mut gapped = points.clone();
+        gapped[4330].1 = f64::NAN;
+        let kept = thinned(&gapped, 400);
+        assert!(kept.contains(&(4321.0, 9.0)));
+        assert_eq!(kept.iter().filter(|point| point.1.is_nan()).count(), 1);
         assert_eq!(even(10, 4), [0, 3, 6, 9]);
         assert_eq!(even(3, 4), [0, 1, 2]);
     }

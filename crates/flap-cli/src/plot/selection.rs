@@ -70,7 +70,8 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
     }
     notes.extend(slice.taken.into_iter().map(|taken| taken.shown));
     let mut parameters: Vec<usize> = (1..request.end).collect();
-    parameters.sort_by_key(|&column| !table.sample.contains(&table.columns[column].name));
+    let sample = table.sample.as_deref().unwrap_or_default();
+    parameters.sort_by_key(|&column| !sample.contains(&table.columns[column].name));
     let aims = aims(request, &columns);
     Ok(Selection { columns, aims, rows, parameters, sampled: axes.sampled, title, notes })
 }

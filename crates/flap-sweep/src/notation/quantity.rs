@@ -39,10 +39,9 @@ pub fn without_units<E>(
             refused(UserError { message, help: Some(help.to_owned()) })
         })?;
         let column_unit = unit_of(name)?;
-        let value = units::parse_as(quantity, &column_unit)
-            .map_err(|error| refused(UserError { message: error.message(name), help: error.help() }))?;
         // The cells of a measure are in its own unit, such as mN, and not in SI units.
-        let value = value / units::parse_as(&format!("1 {column_unit}"), &column_unit).unwrap_or(1.0);
+        let value = units::parse_in(quantity, &column_unit)
+            .map_err(|error| refused(UserError { message: error.message(name), help: error.help() }))?;
         plain += &text[copied..number.start];
         let _ = write!(plain, "{value:?}");
         copied = unit.end;

@@ -68,6 +68,34 @@ fn parse_trimmed(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     }
 }
 
+/// Returns the value in `unit` of the quantity `text`. The unit may have a prefix or a factor, such as `mN` or `deg`.
+///
+/// # Errors
+/// Returns the errors of [`parse_as`].
+///
+/// ```
+/// use flap_sweep::notation::units::parse_in;
+/// assert_eq!((parse_in("2 N", "mN").unwrap(), parse_in("2 N", "N").unwrap()), (2000.0, 2.0));
+/// ```
+pub fn parse_in(text: &str, unit: &str) -> Result<f64, UnitError> {
+    Ok(parse_as(text, unit)? / parse_as(&format!("1 {unit}"), unit).unwrap_or(1.0))
+}
+
+/// Returns the value in SI units of the quantity `text`, or of a number in SI units without a unit.
+///
+/// # Errors
+/// Returns the errors of [`parse_as`], except the error about a missing unit.
+///
+/// ```
+/// use flap_sweep::notation::units::parse_or_si;
+/// assert_eq!((parse_or_si("2 kV", "V").unwrap(), parse_or_si("2", "V").unwrap()), (2000.0, 2.0));
+/// assert!(parse_or_si("110%", "V").is_err() && parse_or_si("45 deg", "Hz").is_err());
+/// assert_eq!((parse_or_si("5%", "").unwrap(), parse_or_si("50 mrad", "rad").unwrap()), (0.05, 0.05));
+/// ```
+pub fn parse_or_si(text: &str, si_unit: &str) -> Result<f64, UnitError> {
+    parse_as(text, if has_unit(text) { si_unit } else { "" })
+}
+
 /// Returns true if a text is a number with a unit or `%`.
 ///
 /// ```

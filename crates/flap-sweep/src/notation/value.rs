@@ -69,7 +69,7 @@ pub fn of_text(parameter: &Parameter, text: &str, unit: UnitOf<'_>) -> Result<f6
     }
     let number = match unit {
         UnitOf::Text => units::parse_as(text, parameter.unit),
-        UnitOf::TextOrSi => units::parse_as(text, "").or_else(|_| units::parse_as(text, parameter.unit)),
+        UnitOf::TextOrSi => units::parse_or_si(text, parameter.unit),
         UnitOf::Column(unit) => units::parse_as(&format!("{text} {unit}"), parameter.unit),
     };
     of_number(parameter, number.map_err(ValueError::NoQuantity)?)

@@ -36,7 +36,8 @@ pub(super) struct Axis {
     pub(super) best: Place,
     /// The smallest and the largest value among the best tenth of the rows, or all words for a column of words.
     pub(super) best_tenth: Vec<Place>,
-    /// True if the best value is the first or the last value of an axis with three or more numbers. False for a sample.
+    /// True if the best value is the first or the last value of an axis with three or more numbers. False for parameters
+    /// of a sample.
     pub(super) at_the_end: bool,
 }
 
@@ -49,13 +50,15 @@ pub(super) enum Place {
 }
 
 impl Best {
-    /// Returns the best of the given rows; `None` if no row has a value.
+    /// Returns the best of the given rows; `None` if no row has a value. `places` contains the number of each row of
+    /// the table in the file.
     pub(super) fn of(
         table: &Table,
         column: usize,
         aim: Aim,
         rows: &[usize],
         axes: &Axes,
+        places: &[u64],
     ) -> Result<Option<Best>, Failure> {
         let numbers = table.numbers(column)?;
         let mut ranked: Vec<usize> = rows.iter().copied().filter(|&row| !numbers[row].is_nan()).collect();
@@ -72,20 +75,20 @@ impl Best {
             unit: described.unit.clone(),
             aim: if aim == Aim::Max { "max" } else { "min" },
             value: numbers[row],
-            point: point(table, row),
+            point: point(table, row, places),
             axes: (axes.listed().into_iter())
-                .map(|axis| Axis::of(table, axis, &ranked, axes.sampled))
+                .map(|axis| Axis::of(table, axis, &ranked, axes.members.contains(&axis)))
                 .collect(),
         }))
     }
 }
 
 /// Returns the index in the first column of results, or the number of the row in other files.
-fn point(table: &Table, row: usize) -> u64 {
+fn point(table: &Table, row: usize, places: &[u64]) -> u64 {
     let first = &table.columns[0];
     let indices = table.numbers(0).ok().filter(|_| ["point", "curve"].contains(&first.name.as_str()));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number from 0")]
-    indices.map_or(row as u64, |indices| indices[row] as u64)
+    indices.map_or(places[row], |indices| indices[row] as u64)
 }
 
 impl Axis {
