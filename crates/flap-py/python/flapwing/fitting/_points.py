@@ -11,7 +11,7 @@ import numpy as np
 from .. import _arguments
 from .._flapwing import Grid
 from .._types import Array
-from ._branches import Branch
+from ._branches import Branch, taken
 from ._cells import parameter_cells
 from ._data import DataSet
 from ._model import FINE, Answer, Asked, Model
@@ -79,16 +79,36 @@ def _of_grid(model: Model, place: str, grid: Grid) -> dict[str, Any]:
 def answers_at(
     model: Model, points: Mapping[str, Any], measure: str, x: Array, place: int = 0, like: DataSet | None = None
 ) -> Answer:
-    """Return a measure at operating points outside the data, with the parameters of a data set. If `like` is given, use
-    the branch of the data set `like`.
+    """Return a measure at operating points outside the data, with the parameters of a data set. If `like` is given,
+    follow the branch of the data set `like` through its operating points.
     """
-    count = len(next(iter(points.values())))
     model.names.check_measure(measure)
-    asked = Asked(np.full(count, place, np.intp), np.arange(count), [measure] * count)
+    count = len(next(iter(points.values())))
     branches = []
     if like is not None and like.branch is not None:
-        branches = [Branch(like.parameter, like.branch == "down", np.arange(count))]
-    return model.answers(points, asked, branches, [x], rtol=FINE)[0]
+        points = _with_data(model, points, place, like.parameter)
+        branches = [Branch(like.parameter, like.branch == "down", np.arange(len(points[like.parameter])))]
+    every = len(next(iter(points.values())))
+    asked = Asked(np.full(every, place, np.intp), np.arange(every), [measure] * every)
+    answer = model.answers(points, asked, branches, [x], rtol=FINE)[0]
+    new = slice(every - count, None)
+    return Answer(answer.values[new], answer.slopes[new], answer.status[new], answer.gaps[new])
+
+
+def _with_data(model: Model, points: Mapping[str, Any], place: int, along: str) -> dict[str, Any]:
+    """Return points, after the points of a data set with the same parameters other than `along`."""
+    others = [name for name in points if name != along]
+    wanted = {tuple(points[name][row] for name in others) for row in range(len(points[along]))}
+    own = [
+        row
+        for row in np.unique(model.asked.row[model.asked.of_set == place]).tolist()
+        if tuple(model.points[name][row] if name in model.points else model.nominal[name] for name in others) in wanted
+    ]
+    whole = {}
+    for name, values in points.items():
+        cells = taken(model.points[name], own) if name in model.points else [model.nominal[name]] * len(own)
+        whole[name] = np.concatenate([cells, values]) if isinstance(values, np.ndarray) else [*cells, *values]
+    return whole
 
 
 def error_of(answer: Answer, covariance: Array) -> Array:

@@ -116,7 +116,9 @@ class Fit(Solution):
             The measure to predict. The data need not have readings of the predicted measure.
         data_set : str, optional
             The data set whose parameters and branch are used for the prediction. By default, the prediction has the
-            parameters of the first data set, and motions from rest.
+            parameters of the first data set, and motions from rest. A branch is followed through the points of the data
+            set that differ only in the parameter of the branch. Without such points, the branch begins at the first
+            point of the prediction.
         reading : bool
             If True, the bands also contain the noise of a reading, so that the bands contain 95 % of new readings. The
             standard errors of the noise are the standard errors of the data.
