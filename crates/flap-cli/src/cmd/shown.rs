@@ -79,7 +79,7 @@ mod tests {
         let shown = Shown::new("N*m/rad", [1.6e-4, f64::NAN]);
         assert_eq!(shown.cell("8.64e-5"), "86.4");
         let modulus = Shown::new("Pa", [62e9]);
-        assert_eq!((modulus.unit(), modulus.cell("62000000000").as_str()), ("GPa", "62"));
+        assert_eq!((modulus.unit(), modulus.cell("62000000000").as_str()), ("GPa", "62.0"));
         let plain = Shown::new("", []);
         assert_eq!(["12", "", "up", "inf"].map(|cell| plain.cell(cell)), ["12", "", "up", "inf"]);
     }
