@@ -237,8 +237,8 @@ fn plan_beside(results: &Path, sidecar: Option<&Sidecar>) -> Option<Plan> {
     plan
 }
 
-/// Returns the names of the sampled parameters of a plan; `None` if an axis lists values of several parameters, because
-/// a list may contain the points of a sample.
+/// Returns the names of the sampled parameters of a plan. The result is `None` if an axis lists values of several
+/// parameters, because a list may contain the points of a sample.
 fn sampled(plan: &Plan) -> Option<Vec<String>> {
     let parameters = plan.parameters();
     let is_sampled = |values: &Values| matches!(values, Values::Sampled { .. } | Values::Correlated { .. });

@@ -73,7 +73,7 @@ pub(super) fn is_log(values: &[f64]) -> bool {
 }
 
 /// Returns at most about `most` points of a line, in their order. The function keeps the ends and the extremes of each
-/// part of the line, so that peaks remain, and one NaN of each part, so that gaps remain.
+/// part of the line, so that peaks remain. It also keeps one NaN of each part, so that gaps remain.
 pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
     if points.len() <= most {
         return points.to_vec();

@@ -137,9 +137,10 @@ def are_unknown(sets: Sequence[DataSet], measure: str) -> Mask:
 
 
 def estimating(sets: Sequence[DataSet], measure: str, counted: Mask) -> Mask:
-    """Return a mask of the readings from whose residuals the unknown standard error of a measure is estimated: the
-    counted readings without a given standard error. If no such reading is counted, the estimate is computed from all
-    counted readings of the measure.
+    """Return a mask of the readings from whose residuals the unknown standard error of a measure is estimated.
+
+    These readings are the counted readings without a given standard error. If no such reading is counted, the
+    estimate is computed from all counted readings of the measure.
     """
     mine = counted & are_unknown(sets, measure)
     return mine if mine.any() else counted & np.array([name == measure for _, name, _ in places_of(sets)])

@@ -280,8 +280,9 @@ class Fit(Solution):
         self.held_out = _solution.held_out(names, all_readings(self._sets), answer.values, held, self._quantile * error)
 
     def _target(self, target: str | Mapping[str, Any], data_set: str | None) -> tuple[Array, str, str, int]:
-        """Return the derivatives of a target with respect to the search coordinates, the name and the unit of the
-        target, and the index of the data set of new readings. A target is a parameter or a prediction.
+        """Return the derivatives of a target with respect to the search coordinates, and the target's name and unit.
+
+        A target is a parameter or a prediction. The last result is the index of the data set of new readings.
         """
         space = self._model.space
         chosen = None if data_set is None else self._place(data_set)

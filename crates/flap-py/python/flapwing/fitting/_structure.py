@@ -37,8 +37,8 @@ class Structure:
         The probability that pure noise gives neighbouring residuals that are at least as similar as the residuals of
         the fit. Neighbours are readings that differ only in `parameter`. If several readings share each value of
         `parameter`, the test also compares the means of the residuals at each value (analysis of variance). Values of a
-        parameter count as equal if they differ by at most 0.5 %, and by at most 2 % of the parameter's range in the
-        data. If the whole range is at most 0.5 %, all values count as equal.
+        parameter count as equal if they differ by at most 0.5 % and at most 2 % of the parameter's range. If the whole
+        range is at most 0.5 %, all values count as equal.
     is_structured : bool
         True if the residuals have a pattern, which means that the model lacks an effect.
     """
