@@ -247,7 +247,7 @@ def test_unknown_standard_errors_are_estimated_from_their_own_readings():
     likely = criteria(sets, Space([]), np.zeros(0), values, everything)
     np.testing.assert_allclose(likely.sigma, np.repeat([0.1, own], [90, 10]))
     assert likely.parameters == 1
-    # If all readings without a standard error are held out, their standard error is that of the other readings.
+    # If all readings without a standard error are held out, the other readings determine the standard error.
     rest = np.arange(100) < 90
     other = np.sqrt(np.mean((readings[:90] - 50.0) ** 2))
     _search.new_guesses(sets, target, rest, answer, 0, guesses)
