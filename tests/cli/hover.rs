@@ -132,6 +132,38 @@ fn a_mass_is_enough_for_the_power_of_hover() {
     assert!(numbers(&rows, "power_mean_mw").iter().all(|power| *power > 1.0), "{rows}");
 }
 
+/// Derivatives at hover agree with differences of rows, whose inputs also change with the design.
+#[test]
+fn derivatives_at_hover_contain_the_change_of_the_inputs() {
+    let measures = ["power_mean_mw", "hover_amplitude_v", "left_stroke_pp_deg", "power_per_volt"];
+    let grid = |parameter: &str, values: [f64; 3]| {
+        format!(
+            "preset = \"jafferis2016\"\n[axes]\n{parameter} = {values:?}\n[solver]\nrtol = 1e-9\n\
+             [measure]\npower_per_volt = \"power_mean_mw / drive_voltage_pp\"\n\
+             [gradient]\nof = {:?}\nwith_respect_to = [{parameter:?}]\n\
+             [vehicle]\ntrim = \"hover\"\n{}{WINGS}",
+            [&measures[..], &["hover_growth_1_s"]].concat(),
+            if parameter == "total_mass" { "" } else { "total_mass = \"69 mg\"\n" },
+        )
+    };
+    for (parameter, value) in [("hinge_stiffness", 1.5e-6), ("total_mass", 69e-6)] {
+        let folder = Folder::with_grid(&grid(parameter, [value, 0.999 * value, 1.001 * value]));
+        folder.ends(0, "sweep grid.toml --out rows.csv");
+        let rows = folder.read("rows.csv");
+        for measure in measures {
+            let values = numbers(&rows, measure);
+            let difference = (values[2] - values[1]) / 0.2;
+            near(numbers(&rows, &format!("d_{measure}_per_pct_{parameter}"))[0], difference, 1e-4);
+        }
+        assert_eq!(column(&rows, &format!("d_hover_growth_1_s_per_pct_{parameter}"))[0], "");
+        assert_eq!(column(&rows, "gradient_gap")[0], "missing");
+    }
+    let amplitude = grid("drive_frequency", [120.0, 121.0, 122.0])
+        .replace("with_respect_to = [\"drive_frequency\"]", "with_respect_to = [\"drive_voltage_pp\"]");
+    Folder::with_grid(&amplitude)
+        .refuses("sweep grid.toml --out rows.csv", "`drive_voltage_pp` is an input that the search for hover changes");
+}
+
 /// The lift of the four-bar jumps strip by strip, so differences replace its derivatives.
 #[test]
 fn rows_of_the_four_bar_have_a_damping_matrix() {

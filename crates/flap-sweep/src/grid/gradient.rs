@@ -13,6 +13,7 @@ use crate::derivative::Per;
 use crate::notation::expression::Kind;
 use crate::plan::formula::Derived;
 use crate::plan::gradient::{Gradient, check};
+use crate::vehicle::BodyRows;
 
 pub(super) const KEYS: [&str; 2] = ["of", "with_respect_to"];
 
@@ -24,7 +25,7 @@ pub(super) fn read(
     names: &Names<'_>,
     derived: &Derived,
     at_resonance: bool,
-    of_body: bool,
+    body: Option<&BodyRows>,
     problems: &mut Problems,
 ) -> Option<Gradient> {
     let entry = entry?;
@@ -35,14 +36,6 @@ pub(super) fn read(
             .report(entry.key_span.clone(), "rows at the resonance of each design have no derivatives")
             .note("the resonance changes with the design, and flap does not compute this change")
             .help("set drive_frequency, or remove [gradient]");
-    }
-    if of_body {
-        problems
-            .report(
-                entry.key_span.clone(),
-                "rows at hover, and rows with the damping matrix, have no further derivatives",
-            )
-            .help("remove [gradient], or remove trim and damping from [vehicle]");
     }
     if let Err(error) = simulator.gradients() {
         problems.report(entry.key_span.clone(), error.to_string());
@@ -57,7 +50,7 @@ pub(super) fn read(
     let with_respect_to = table::find(&entries, "with_respect_to")?;
     let of = listed(of, problems, |name, item, problems| measure(name, item, names, problems));
     let with_respect_to = listed(with_respect_to, problems, |name, item, problems| {
-        parameter(name, item, names, derived, problems)
+        parameter(name, item, names, derived, body, problems)
     });
     Some(Gradient { of, with_respect_to, per: Per::Cent })
 }
@@ -117,6 +110,7 @@ fn parameter(
     item: &Spanned<DeValue<'_>>,
     names: &Names<'_>,
     derived: &Derived,
+    body: Option<&BodyRows>,
     problems: &mut Problems,
 ) -> Option<usize> {
     let Some(index) = Parameter::index(names.parameters, name) else {
@@ -126,7 +120,9 @@ fn parameter(
         return None;
     };
     let is_derived = derived.parameters().any(|derived| derived == index);
-    let Err(reason) = check(&names.parameters[index], is_derived, names.unset[names.standing(index)]) else {
+    let is_input = body.is_some_and(|body| body.has_input(index));
+    let unset = names.unset[names.standing(index)];
+    let Err(reason) = check(&names.parameters[index], is_derived, is_input, unset) else {
         return Some(index);
     };
     let diagnostic = problems.report(item.span(), format!("`{name}` {reason}"));

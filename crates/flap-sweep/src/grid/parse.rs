@@ -84,7 +84,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     names.are_measured = true;
     let own = formula::read_measures(table::find(&root, "measure"), &mut names, &mut problems);
     let section = table::find(&root, "gradient");
-    let (at_resonance, of_body) = (resonance.is_some(), body.is_some());
+    let (at_resonance, of_body) = (resonance.is_some(), body.as_ref());
     let gradient = gradient::read(section, simulator, &names, &derived, at_resonance, of_body, &mut problems);
     let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
     let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);

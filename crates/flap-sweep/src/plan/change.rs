@@ -58,8 +58,8 @@ pub enum ChangeError {
     /// Rows at the resonance of each design have neither derivatives nor initial states.
     #[error("each design runs at its own resonance, so rows have neither derivatives nor states")]
     AtResonance,
-    /// Rows at hover, and rows with the damping matrix, have neither derivatives nor initial states.
-    #[error("rows at hover, and rows with the damping matrix, have neither derivatives nor states")]
+    /// Rows at hover, and rows with the damping matrix, have no initial states.
+    #[error("rows at hover, and rows with the damping matrix, have no states")]
     OfBody,
     /// The model computes only rows; the error contains the reason.
     #[error("{0}")]
@@ -133,11 +133,10 @@ impl Plan {
     ///
     /// # Errors
     /// - [`ChangeError::NoShares`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives.
-    /// - [`ChangeError::AtResonance`] or [`ChangeError::OfBody`] if rows are at the resonance, at hover, or have the
-    ///   damping matrix.
+    /// - [`ChangeError::AtResonance`] if rows are at the resonance of each design.
     /// - [`ChangeError::NoMotions`] if the model computes only rows.
     pub fn with_slopes(mut self, by: Vec<usize>) -> Result<Plan, ChangeError> {
-        self.check_motions()?;
+        self.states_of_motions()?;
         for &parameter in &by {
             let known = &self.parameters()[parameter];
             let is_derived = self.derived().parameters().any(|derived| derived == parameter);
@@ -149,7 +148,8 @@ impl Plan {
             // An unset parameter of one wing has the value of all wings.
             let follows = follows(parameter)
                 .and_then(|own| of_all_wings(self.parameters(), parameter).map_or(Some(own), follows));
-            gradient::check(known, is_derived, follows)
+            let is_input = self.body().is_some_and(|body| body.has_input(parameter));
+            gradient::check(known, is_derived, is_input, follows)
                 .map_err(|reason| ChangeError::NoShares(known.name.to_owned(), reason))?;
         }
         let models = self.rows().columns().len();
@@ -373,13 +373,16 @@ impl Plan {
         self
     }
 
-    /// Returns the names of the states of the model's motions.
+    /// Returns the names of the states at which motions can begin.
     fn check_motions(&self) -> Result<Vec<String>, ChangeError> {
+        let states = self.states_of_motions()?;
+        if self.body().is_some() { Err(ChangeError::OfBody) } else { Ok(states) }
+    }
+
+    /// Returns the names of the states of the model's motions.
+    fn states_of_motions(&self) -> Result<Vec<String>, ChangeError> {
         if self.resonance().is_some() {
             return Err(ChangeError::AtResonance);
-        }
-        if self.body().is_some() {
-            return Err(ChangeError::OfBody);
         }
         let gradients = self.simulator().gradients();
         gradients.map(Gradients::states).map_err(|error| ChangeError::NoMotions(error.to_string()))

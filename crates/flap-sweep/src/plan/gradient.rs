@@ -39,6 +39,9 @@ pub enum NoShares {
     /// The value of the parameter is computed by formulas.
     #[error("is derived from other parameters")]
     Derived,
+    /// The search for hover determines the value of the parameter.
+    #[error("is an input that the search for hover changes")]
+    Input,
     /// The parameter is a choice of options.
     #[error("is a choice, so there is no derivative with respect to it")]
     Choice,
@@ -63,7 +66,7 @@ impl NoShares {
             NoShares::Derived => {
                 "list these parameters instead: their derivatives include the effect of derived parameters"
             }
-            NoShares::Choice | NoShares::Whole => "",
+            NoShares::Input | NoShares::Choice | NoShares::Whole => "",
             NoShares::Unset(_) => "set it under [params]",
         }
     }
@@ -76,10 +79,12 @@ impl NoShares {
 pub(crate) fn check(
     parameter: &Parameter,
     is_derived: bool,
+    is_input: bool,
     follows: Option<&'static str>,
 ) -> Result<(), NoShares> {
     match (&parameter.kind, follows) {
         _ if is_derived => Err(NoShares::Derived),
+        _ if is_input => Err(NoShares::Input),
         (Kind::Choice(_), _) => Err(NoShares::Choice),
         (Kind::Number(Range::Whole(..)), _) => Err(NoShares::Whole),
         (_, Some(follows)) => Err(NoShares::Unset(follows)),

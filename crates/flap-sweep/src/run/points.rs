@@ -189,8 +189,12 @@ fn add_gradient(
     });
     let changes: Vec<Change> = changes.collect();
     let run = PointRun::new(instructions, plan.solver(), &point.values).until(interrupted);
-    let found =
-        plan.simulator().gradients().and_then(|gradients| gradients.gradient(&run, &row.state, &changes));
+    let found = if let Some(body) = plan.body() {
+        body.gradient(&run, row, &changes)
+    } else {
+        let gradients = plan.simulator().gradients();
+        gradients.and_then(|gradients| gradients.gradient(&run, &row.state, &changes))
+    };
     if interrupted() {
         return false;
     }
@@ -199,7 +203,7 @@ fn add_gradient(
             row.rhs_evals += found.rhs_evals;
             found.slopes
         }
-        Err(_) => vec![vec![Err(NoSlope::Lost); plan.simulator().columns().len()]; changes.len()],
+        Err(_) => vec![vec![Err(NoSlope::Lost); plan.rows().columns().len()]; changes.len()],
     };
     let derivatives = derivatives(plan, gradient, point, &row.measures, &slopes);
     let mut reasons: Vec<NoSlope> = derivatives.iter().filter_map(|derivative| derivative.err()).collect();

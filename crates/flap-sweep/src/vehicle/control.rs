@@ -119,8 +119,29 @@ impl Input {
         standing(parameters, values, index).is_nan().then_some(parameters[index].name)
     }
 
+    /// Returns the change of the input along which its derivatives are computed, in SI units.
+    ///
+    /// A parameter that can only grow has a one-sided difference. At rest, this difference would be the square of the
+    /// change.
+    pub(super) fn change(
+        &self,
+        vehicle: &Vehicle,
+        values: &[f64],
+        at_rest: bool,
+    ) -> Result<Change, ControlError> {
+        let size = self.size(vehicle, values)? * Change::SHARE;
+        let moved = |by: f64| {
+            let mut values = values.to_vec();
+            values[self.parameter] += by;
+            values
+        };
+        let is_one_sided = !at_rest && is_least(vehicle.parameters(), values, self.parameter);
+        let behind = moved(if is_one_sided { 0.0 } else { -size });
+        Ok(Change { ahead: moved(size), behind, size })
+    }
+
     /// Returns the size (SI) of the input's parameter, to which relative changes refer.
-    fn size(&self, vehicle: &Vehicle, values: &[f64]) -> Result<f64, ControlError> {
+    pub(super) fn size(&self, vehicle: &Vehicle, values: &[f64]) -> Result<f64, ControlError> {
         let size = derivative::size(vehicle, values, self.parameter);
         size.map(f64::abs).ok_or_else(|| ControlError::NoSize(self.name.clone()))
     }
@@ -268,7 +289,7 @@ pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], 
 
 /// Effect below which an input is left out, relative to the largest effect of an input. A smaller effect counts as no
 /// effect.
-const IDLE: f64 = 1e-9;
+pub(super) const IDLE: f64 = 1e-9;
 
 /// Reason why a control effectiveness or a trim cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -407,21 +428,9 @@ impl Flight<'_> {
         }
         let values = own_values(self.vehicle, values, inputs);
         let row = self.settled(&values, begin)?;
-        let mut changes = Vec::with_capacity(inputs.len());
-        for input in inputs {
-            let size = input.size(self.vehicle, &values)? * Change::SHARE;
-            let moved = |by: f64| {
-                let mut values = values.clone();
-                values[input.parameter] += by;
-                values
-            };
-            // A parameter that can only grow has a one-sided difference. At rest, this difference would be the square
-            // of the change.
-            let at_rest = row.floquet_max.is_nan();
-            let is_one_sided = !at_rest && is_least(self.vehicle.parameters(), &values, input.parameter);
-            let behind = moved(if is_one_sided { 0.0 } else { -size });
-            changes.push(Change { ahead: moved(size), behind, size });
-        }
+        let at_rest = row.floquet_max.is_nan();
+        let changes = inputs.iter().map(|input| input.change(self.vehicle, &values, at_rest));
+        let changes: Vec<Change> = changes.collect::<Result<_, _>>()?;
         let run = PointRun::new(Backend::best(), self.solver, &values).until(self.interrupted);
         let gradient = self.vehicle.gradient(&run, &row.state, &changes)?;
         let places = places(self.vehicle);

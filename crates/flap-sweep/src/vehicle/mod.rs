@@ -3,6 +3,7 @@
 pub mod control;
 pub mod flight;
 pub mod hover;
+mod hover_slopes;
 mod rows;
 
 pub(crate) use hover::TRIM_LIMIT;

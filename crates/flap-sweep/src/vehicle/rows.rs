@@ -6,13 +6,15 @@ use flap_core::body::BodyParameters;
 use flap_core::model::OverWings;
 use flap_core::num::Backend;
 use flap_core::simulate::{
-    Column, Interrupt, Jobs, PointRun, Row, Rows, Simulator as _, SolverSettings, Status,
+    Change, Column, Gradient, Gradients as _, Interrupt, Jobs, NoSlope, PointRun, Row, Rows, Simulator as _,
+    SolverSettings, Status, Unfinished,
 };
 use flap_core::vehicle::{Vehicle, standing};
 use nalgebra::DMatrix;
 
 use super::control::{COMPONENTS, ControlError, Effectiveness, Flight, Input};
 use super::hover::{HoverError, HoverMode, HoverModel, WRENCH_TO_SI, damping, residual_share, trim};
+use super::hover_slopes;
 use crate::derivative::{Per, column_name, meaning};
 
 /// Units of the derivatives of a force and of a torque with respect to a velocity and to a rate.
@@ -102,6 +104,51 @@ impl BodyRows {
             values[input.parameter] = found * input.factor;
         }
         values
+    }
+
+    /// Returns the derivatives of the measures of `row`, which this source computed for the values of `run`.
+    ///
+    /// At hover, the inputs change with the design, so that the vehicle keeps hovering. Derivatives of the growth rate,
+    /// the period, the residual and the damping matrix are missing.
+    ///
+    /// # Errors
+    /// Returns an error if the run is interrupted.
+    pub fn gradient(
+        &self,
+        run: &PointRun<'_>,
+        row: &Row,
+        changes: &[Change],
+    ) -> Result<Gradient, Unfinished> {
+        let at_hover = |values: &[f64]| self.at_hover(values, &row.measures);
+        let changes = changes.iter().map(|change| Change {
+            ahead: at_hover(&change.ahead),
+            behind: at_hover(&change.behind),
+            size: change.size,
+        });
+        let changes: Vec<Change> = changes.collect();
+        let mut found = match &self.inputs {
+            None => self.vehicle.gradient(run, &row.state, &changes)?,
+            Some(inputs) => {
+                let values = at_hover(run.values);
+                let run = PointRun { values: &values, ..*run };
+                hover_slopes::gradient(&self.vehicle, &run, &row.state, inputs, &changes)?
+            }
+        };
+        for slopes in &mut found.slopes {
+            // The columns between the measures of the vehicle and the inputs have no derivatives.
+            let of_inputs = slopes.split_off(self.vehicle.columns().len());
+            if self.inputs.is_some() {
+                slopes.extend([Err(NoSlope::Missing); OF_HOVER]);
+            }
+            slopes.extend(of_inputs);
+            slopes.resize(self.columns.len(), Err(NoSlope::Missing));
+        }
+        Ok(found)
+    }
+
+    /// Returns true if the search for hover changes this parameter.
+    pub(crate) fn has_input(&self, parameter: usize) -> bool {
+        self.inputs.iter().flatten().any(|input| input.parameter == parameter)
     }
 
     /// Adds the columns of this source to the measures of a row of the vehicle at these values.
