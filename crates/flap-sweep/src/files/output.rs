@@ -4,6 +4,8 @@
 use std::fs::{self, File, OpenOptions};
 use std::io;
 use std::path::{Path, PathBuf};
+use std::thread;
+use std::time::{Duration, Instant};
 
 use super::beside::{journal_of, lock_of, rows_of, sidecar_of};
 pub use super::lock::Lock;
@@ -120,6 +122,9 @@ pub(crate) fn reopen(path: &Path) -> Result<(File, Lock), CreateError> {
     Ok((opened.map_err(CreateError::io(path))?, lock))
 }
 
+/// Time for which [`lock`] waits for another process. A killed process may hold its lock for a moment.
+const WAIT: Duration = Duration::from_secs(1);
+
 /// Locks the results at `path` for this process. The results need not exist.
 ///
 /// # Errors
@@ -128,7 +133,14 @@ pub(crate) fn reopen(path: &Path) -> Result<(File, Lock), CreateError> {
 /// - [`CreateError::Io`] if the lock file cannot be created.
 pub(crate) fn lock(path: &Path) -> Result<Lock, CreateError> {
     let lock = lock_of(path);
-    match Lock::take(&lock) {
+    let begun = Instant::now();
+    let taken = loop {
+        match Lock::take(&lock) {
+            Ok(None) if begun.elapsed() < WAIT => thread::sleep(WAIT / 50),
+            taken => break taken,
+        }
+    };
+    match taken {
         Ok(taken) => taken.ok_or_else(|| CreateError::Busy(path.to_owned())),
         Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
             Err(CreateError::in_the_way(lock, path))
@@ -140,9 +152,10 @@ pub(crate) fn lock(path: &Path) -> Result<Lock, CreateError> {
 /// Removes the lock files that a killed run has left beside the results at `path` and beside their replacement.
 pub(crate) fn remove_unused_locks(path: &Path) {
     for results in [path, &replacement::of(path)] {
-        if lock_of(results).exists() {
+        let lock = lock_of(results);
+        if lock.exists() {
             // A lock file that another run uses stays.
-            let _ = lock(results);
+            let _ = Lock::take(&lock);
         }
     }
 }
