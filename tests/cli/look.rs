@@ -256,9 +256,11 @@ fn percentiles_are_those_of_the_rows() {
 fn the_best_row_at_the_end_of_an_axis_is_told() {
     let folder = swept(
         "preset = \"jafferis2016\"\n[axes]\ndrive_voltage_pp = [100, 150, 200]\n\
-         drive_frequency = { from = 100, to = 160, n = 7 }\n",
+         drive_frequency = { from = 100, to = 160, n = 7 }\n\
+         [derived]\nair_density = \"preset.air_density * (drive_voltage_pp / 200)^0.01\"\n",
     );
     let ended = folder.ends(0, "top rows.csv --by lift_mean_mn -n 2");
+    assert!(!ended.stderr.contains("air_density"), "{}", ended.stderr);
     ended.says(
         "the best row is at the end of drive_voltage_pp (V), 200.0: rows beyond this value may be better",
     );

@@ -68,7 +68,7 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     print::table(*format, &names, &rows, || table(&names, &units, &rows))?;
     for (axis, ends) in axes.zip(&ends) {
         let (name, unit, cell) = (&names[axis], &units[axis], &rows[0][axis]);
-        if !source.sample().contains(name) && ends.contain(number(cell)) {
+        if !source.is_no_axis(name) && ends.contain(number(cell)) {
             let shown = Shown::of_column(name, unit, [number(cell)]);
             let (name, value) = (shown.heading(name), shown.cell(cell));
             console::say(&format!(

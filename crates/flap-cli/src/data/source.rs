@@ -82,9 +82,9 @@ impl Source {
         self.units.of_column(&self.names()[column])
     }
 
-    /// Returns the parameters of the sample, if the sidecar lists sampled parameters.
-    pub(crate) fn sample(&self) -> &[String] {
-        self.sample.as_deref().unwrap_or_default()
+    /// Returns true if the sidecar lists this column as a sampled or derived parameter, whose values are no axis.
+    pub(crate) fn is_no_axis(&self, name: &String) -> bool {
+        self.sample.iter().flatten().chain(&self.derived).any(|known| known == name)
     }
 
     /// Reads the next row into `row`; returns false after the last row.
