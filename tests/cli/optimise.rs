@@ -171,3 +171,11 @@ fn a_front_is_a_table_of_designs() {
     assert!(page.starts_with("lift_mean_mn  power_mean_mw  drive_voltage_pp (V)"), "{page}");
     assert_eq!(page.lines().count(), 6);
 }
+
+#[test]
+fn a_front_has_each_design_once() {
+    let folder = Folder::with_grid(GRID);
+    let goals = "optimise grid.toml --maximise lift_mean_mn --minimise=-2*lift_mean_mn --points 4";
+    let page = folder.ends(0, goals).stdout;
+    assert_eq!(page.lines().count(), 2, "one design is the best for both goals: {page}");
+}

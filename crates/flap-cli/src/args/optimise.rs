@@ -31,8 +31,8 @@ pub(crate) struct OptimiseArgs {
     #[arg(long = "where", value_name = "COMPARISON")]
     pub(crate) conditions: Vec<String>,
 
-    /// Compute a Pareto front of N designs for two goals, from the best value of one goal to the best value of the
-    /// other.
+    /// Compute a Pareto front of at most N designs for two goals, from the best value of one goal to the best value of
+    /// the other.
     /// --points requires both --maximise and --minimise
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=10_000), conflicts_with = "out")]
     pub(crate) points: Option<u32>,
@@ -76,12 +76,13 @@ flap first computes the points of the grid. The search then improves the best po
 of the measures. The search may choose any value between the smallest and the largest value of an axis. Options, whole \
 numbers and parameters that change together can have only the values of the grid. Every motion begins at rest, as in a sweep.
 
-The status is `optimal` if the derivatives confirm that no small change of the design is better. The status is \
-`approximate` if the derivatives are missing, or do not confirm that the design is optimal. The status is `infeasible` if \
+The status is `optimal` if the derivatives confirm that no small change of the design is better. Differences of rows \
+replace missing derivatives. The status is `approximate` if the derivatives do not confirm that the design is optimal. The status is `infeasible` if \
 no design satisfies all conditions: flap then prints the design with the smallest violation of the conditions, and the \
 exit code is 1.
 
 With --points, each row is one design of the Pareto front: the best value of one goal under a limit on the other goal. \
+The front has fewer than N designs if one design is the best for several limits. \
 With `--format csv`, rows contain all measures, so that `flap plot` can draw the rows.
 
 Examples:

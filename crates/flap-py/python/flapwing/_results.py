@@ -388,10 +388,10 @@ class Optimum(_Result):
     Attributes
     ----------
     status : str
-        `status` is ``"optimal"`` if the derivatives confirm that no small change improves the design. `status` is
-        ``"approximate"`` if the derivatives do not confirm the design or are missing. `status` is ``"infeasible"`` if
-        no design satisfies all conditions. An infeasible design is the design with the smallest violation of the
-        conditions.
+        `status` is ``"optimal"`` if the derivatives confirm that no small change improves the design. Differences
+        of rows replace missing derivatives. `status` is ``"approximate"`` if the derivatives do not confirm the design.
+        `status` is ``"infeasible"`` if no design satisfies all conditions. An infeasible design is the design with the
+        smallest violation of the conditions.
     goal : str
         The expression that was maximised or minimised.
     value : float

@@ -5,10 +5,11 @@ use flap_core::simulate::{NoSlope, Row};
 /// The result of a search for an optimum, as a status of one word.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The derivatives show that no small change of the design is better.
+    /// The derivatives show that no small change of the design is better. Differences of rows replace missing
+    /// derivatives.
     Optimal,
-    /// The best point that was found. The derivatives do not confirm this point, because some derivatives are missing
-    /// or the search ended early.
+    /// The best point that was found. The derivatives do not confirm this point, because the search ended
+    /// early or a neighbour has no periodic motion.
     Approximate,
     /// No point satisfies all conditions. The point has the smallest violation of the conditions.
     Infeasible,

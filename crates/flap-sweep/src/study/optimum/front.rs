@@ -46,10 +46,13 @@ pub enum FrontError {
     Run(#[from] RunError),
 }
 
-/// The front of two goals within the axes of `plan`, under `conditions`, with `count` points, at least two. The points
-/// of the front have limits on the second goal, which are evenly spaced. The search for a point starts from the
-/// neighbouring points of the front. `stops` receives the number of finished points of the front and the number of all
-/// points. If `stops` returns true, the search ends.
+/// The front of two goals within the axes of `plan`, under `conditions`, with at most `count` points. `count` is at
+/// least two.
+///
+/// Each point has the best value of the first goal for a limit on the second goal. The limits are evenly spaced. The
+/// search for a point starts from the neighbouring points of the front. A point that another point improves is left out.
+/// `stops` receives the number of finished points of the front and the number of all points. If `stops` returns true,
+/// the search ends.
 ///
 /// Returns `None` if no start has a periodic motion, or if `stops` stopped the search.
 ///
@@ -72,45 +75,56 @@ pub fn front(
         Problem::new(plan.clone(), text, aim, &conditions).map_err(|error| FrontError::Problem(place, error))
     };
     let [first, second] = [problem(0, None)?, problem(1, None)?];
-    let point =
-        |best: Optimum| FrontPoint { goals: [&first, &second].map(|problem| problem.value(&best)), best };
+    let mut front = Front { points: Vec::new(), rows: 0, sloped: 0 };
     let Some(begin) = optimise(&first, settings, &|_, _| stops(0, all))? else { return Ok(None) };
     let Some(end) = optimise(&second, settings, &|_, _| stops(1, all))? else { return Ok(None) };
-    let mut front = Front { points: Vec::new(), rows: 0, sloped: 0 };
-    front.push(point(begin));
-    if front.points[0].best.status == Status::Infeasible {
+    let mut point = |best: Optimum| {
+        front.rows += best.rows;
+        front.sloped += best.sloped;
+        FrontPoint { goals: [&first, &second].map(|problem| problem.value(&best)), best }
+    };
+    let (begin, end) = (point(begin), point(end));
+    if begin.best.status == Status::Infeasible {
+        front.points.push(begin);
         return Ok(Some(front));
     }
-    let end = point(end);
-    let [from, to] = [front.points[0].goals[1], end.goals[1]];
-    let sign = match goals[1].aim {
+    let [from, to] = [begin.goals[1], end.goals[1]];
+    let mut points = vec![begin];
+    let relation = match goals[1].aim {
         Aim::Largest => ">=",
         Aim::Smallest => "<=",
     };
-    // The last limit is the best value of the second goal. Several designs can have this value.
+    let signs = goals.map(|goal| goal.aim.sign());
     for number in 1..all {
         let share = number as f64 / (all - 1) as f64;
+        // The last limit is the best value of the second goal. Several designs can have this value.
         let limit = if number == all - 1 { to } else { from + (to - from) * share };
-        let limited = problem(0, Some(format!("({}) {sign} {limit:?}", goals[1].text)))?;
-        let beside = front.points.last().map(|point| &point.best);
-        let starts: Vec<&Optimum> = beside.into_iter().chain([&end.best]).collect();
+        let beside = &points[points.len() - 1];
+        if signs[1] * beside.goals[1] <= signs[1] * limit {
+            continue;
+        }
+        let limited = problem(0, Some(format!("({}) {relation} {limit:?}", goals[1].text)))?;
+        let starts = [&beside.best, &end.best];
         let found = optimise_from(&limited, settings, &starts, &|_, _| stops(number + 1, all))?;
-        match found {
-            Some(best) if best.is_feasible() => front.push(point(best)),
+        let Some(found) = found.map(&mut point) else { return Ok(None) };
+        if found.best.is_feasible() {
+            points.push(found);
+        } else if number == all - 1 {
             // Without a design at the last limit, the front ends with the best design for the second goal.
-            Some(_) if number == all - 1 => front.push(end.clone()),
-            Some(_) => {}
-            None => return Ok(None),
+            points.push(end.clone());
         }
     }
+    front.points = not_improved(points, signs);
     Ok(Some(front))
 }
 
-impl Front {
-    /// Adds a point and the number of rows that were computed for the point.
-    fn push(&mut self, point: FrontPoint) {
-        self.rows += point.best.rows;
-        self.sloped += point.best.sloped;
-        self.points.push(point);
-    }
+/// Returns the points for which no other point is better in one goal and at least as good in the other goal. Goals times
+/// `signs` are the smaller, the better.
+fn not_improved(points: Vec<FrontPoint>, signs: [f64; 2]) -> Vec<FrontPoint> {
+    let scores: Vec<[f64; 2]> =
+        points.iter().map(|point| [0, 1].map(|goal| signs[goal] * point.goals[goal])).collect();
+    let improves =
+        |other: &[f64; 2], score: &[f64; 2]| other != score && other[0] <= score[0] && other[1] <= score[1];
+    let is_kept = |score: &[f64; 2]| !scores.iter().any(|other| improves(other, score));
+    points.into_iter().zip(&scores).filter(|(_, score)| is_kept(score)).map(|(point, _)| point).collect()
 }
