@@ -37,6 +37,9 @@ fn rows_have_force_torque_and_the_wings() {
     assert!(roll[2] < -1.0 && roll[27].abs() < 1e-3, "{roll:?}");
     let ratio = column(&folder, "all.csv", "lift_to_weight");
     assert!((ratio[0] - lift[0] * 1e-3 / (85e-6 * 9.80665)).abs() < 1e-12);
+    let [efficiency, power] =
+        ["efficiency_gf_per_w", "power_mean_mw"].map(|name| column(&folder, "all.csv", name));
+    assert!((efficiency[0] / (lift[0] / 9.80665 / (power[0] * 1e-3)) - 1.0).abs() < 1e-12);
     let strokes = ["left_stroke_pp_deg", "right_stroke_pp_deg"].map(|name| column(&folder, "all.csv", name));
     assert!(strokes[0][0] < strokes[1][0]);
 }

@@ -4,6 +4,7 @@ use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Preset};
 use flap_core::simulate::{Row, Simulator, SolverSettings, Status, all, preset};
 
+use crate::data::worse;
 use crate::robustness::Random;
 use crate::rows;
 use crate::terms::is_left_out;
@@ -57,7 +58,7 @@ fn is_above(value: f64, limit: f64) -> bool {
 /// The largest relative error of the principal measures.
 fn error(model: &dyn Simulator, row: &Row, exact: &Row) -> f64 {
     let relative = |name: &str| (measure(model, row, name) / measure(model, exact, name) - 1.0).abs();
-    PRINCIPAL.iter().map(|name| relative(name)).fold(0.0, f64::max)
+    PRINCIPAL.iter().map(|name| relative(name)).fold(0.0, worse)
 }
 
 #[test]
@@ -74,8 +75,10 @@ fn rows_of_random_designs_know_their_error() {
 
         let audits =
             periodic.iter().filter(|&&i| is_above(measure(model, &rows[i], "energy_audit").abs(), accuracy));
-        let (audits, doubtful): (Vec<_>, Vec<_>) =
-            (audits.collect(), periodic.iter().filter(|&&i| rows[i].error_estimate > accuracy).collect());
+        let (audits, doubtful): (Vec<_>, Vec<_>) = (
+            audits.collect(),
+            periodic.iter().filter(|&&i| is_above(rows[i].error_estimate, accuracy)).collect(),
+        );
 
         let compared: Vec<usize> = periodic.iter().copied().take(COMPARED).collect();
         let chosen: Vec<Vec<f64>> = compared.iter().map(|&i| designs[i].clone()).collect();
@@ -89,9 +92,11 @@ fn rows_of_random_designs_know_their_error() {
             .filter(|&(i, _)| !OTHER_ORBITS.contains(&(name, i)))
             .collect();
         let underestimated: Vec<_> =
-            errors.iter().filter(|&&(i, error)| error > 3.0 * rows[i].error_estimate).collect();
-        let unsaid: Vec<_> =
-            errors.iter().filter(|&&(i, error)| error > 1e-2 && rows[i].error_estimate < accuracy).collect();
+            errors.iter().filter(|&&(i, error)| is_above(error, 3.0 * rows[i].error_estimate)).collect();
+        let unsaid: Vec<_> = errors
+            .iter()
+            .filter(|&&(i, error)| is_above(error, 1e-2) && rows[i].error_estimate < accuracy)
+            .collect();
         println!(
             "{name}: of {DRAWN} designs {} are periodic; {} with an energy audit above {accuracy}, {} with an \
              estimate above it; of {} compared {} have errors above three times the estimate",

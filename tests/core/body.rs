@@ -13,7 +13,7 @@ use flap_core::vehicle::{FORCES, Mount, TORQUES, Vehicle};
 
 use nalgebra::{Matrix6, Vector3};
 
-use crate::data::{Record, table};
+use crate::data::{Record, table, worse};
 
 const MOTION: [&str; 6] = [
     "body_velocity_forward",
@@ -165,7 +165,7 @@ fn assert_wrench(found: [f64; 6], expected: [f64; 6], tolerance: f64, what: &str
         let force = expected[..3].iter().fold(0.0_f64, |size, one| size.max(one.abs()));
         let size = if part.start == 3 { size.max(1e-3 * force) } else { size };
         for i in part {
-            worst = worst.max((found[i] - expected[i]).abs() / size);
+            worst = worse(worst, (found[i] - expected[i]).abs() / size);
         }
     }
     assert!(worst <= tolerance, "{what}: {found:?}, not {expected:?} ({worst:.1e})");
@@ -224,18 +224,15 @@ fn the_damping_matrix_is_that_of_the_reference() {
         let expected: [[f64; 6]; 6] = core::array::from_fn(|i| {
             core::array::from_fn(|j| record.number(&format!("{}_per_{}", WRENCH[i], motions[j])))
         });
-        let mut worst = (0.0_f64, 0, 0);
+        let mut worst = 0.0;
         for i in 0..6 {
             for j in 0..6 {
                 let size = (expected[i][i] * expected[j][j]).abs().sqrt();
-                let error = (found[i][j] - expected[i][j]).abs() / size;
-                if error > worst.0 {
-                    worst = (error, i, j);
-                }
+                worst = worse(worst, (found[i][j] - expected[i][j]).abs() / size);
             }
         }
         let tolerance = if four_bar { 1.1e-2 } else { 1e-3 };
-        assert!(worst.0 < tolerance, "{case} {mode}: {found:?}, not {expected:?}");
+        assert!(worst < tolerance, "{case} {mode}: {found:?}, not {expected:?}");
     }
 }
 

@@ -1,5 +1,7 @@
 //! Free motions after an impulse.
 
+use std::f64::consts::TAU;
+
 use flap_core::drive::Wave;
 use flap_core::model::Motions;
 use flap_core::model::bimorph::Bimorph;
@@ -10,6 +12,7 @@ use flap_core::ode::Ode;
 use flap_core::simulate::{ImpulseRequest, PointRun, SolverSettings, all, by_name, preset};
 
 use crate::bimorph::plates_under;
+use crate::probe::modes;
 
 /// The values of a preset with the values of `set`.
 fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
@@ -70,6 +73,58 @@ fn an_impulse_moves_the_pitch_as_a_drive_does() {
                 assert!(rest[i].abs() < 1e-9 * driven[i].abs().max(1e-9), "{}: {rest:?}", preset.name);
             }
         }
+    }
+}
+
+/// In a free motion, unequal plates and a bias between the plates leave the wing at rest with all angles zero.
+#[test]
+fn unequal_plates_rest_before_an_impulse() {
+    for (offset, ratio) in [(0.0, 1.0), (40.0, 1.0), (0.0, 0.8), (-30.0, 1.3)] {
+        let values = values("jafferis2016", &[("drive_offset", offset), ("plate_ratio", ratio)]);
+        let (c, _, rest) = released(&Bimorph::default(), &values);
+        let plates = plates_under(&c, [120.0, 80.0].map(|volts| Wave::with_rate(volts, 0.0)));
+        let driven = Bimorph::default().rhs(&c, &plates, 1.0, &[0.0; 4]);
+        assert!(rest[1].abs() < 1e-12 * driven[1].abs(), "{offset}, {ratio}: {rest:?}, {driven:?}");
+    }
+}
+
+/// Natural frequencies are those of the equations of motion, linearised at rest by differences.
+#[test]
+fn modes_are_those_of_the_equations() {
+    fn frequencies<M: Motions<4>>(
+        model: &M,
+        values: &[f64],
+        [positions, rates]: [[usize; 2]; 2],
+    ) -> [[f64; 2]; 2] {
+        let constants = model.start(values).unwrap().constants;
+        let (still, c, _) = model.variant(values).released(&constants, 1.0);
+        let at = |place: usize, change: f64| {
+            let mut y = [0.0; 4];
+            y[positions[place]] = change;
+            still.rhs(&c, &still.input(&c, 0.0), 1.0, &y)
+        };
+        // The first position of the bimorph is a displacement (m).
+        let sizes = if positions[1] == 2 { [1e-9, 1e-6] } else { [1e-6; 2] };
+        let [[a, b], [d, e]] = [0, 1].map(|i: usize| {
+            [0, 1].map(|j: usize| (at(j, sizes[j])[rates[i]] - at(j, -sizes[j])[rates[i]]) / (2.0 * sizes[j]))
+        });
+        let (sum, root) = (-(a + e), ((a - e).powi(2) + 4.0 * b * d).sqrt());
+        let mut found = modes::<M>(&constants);
+        found.sort_by(f64::total_cmp);
+        [found, [0.5 * (sum - root), 0.5 * (sum + root)].map(|square| square.sqrt() / TAU)]
+    }
+    let coupled = [("added_mass_factor", 1.0), ("added_inertia_stroke", 0.0), ("force_strain_slope", 0.0)];
+    for (name, set) in [("jafferis2016", &coupled[2..]), ("jafferis2016", &coupled)] {
+        let [found, expected] = frequencies(&Bimorph::default(), &values(name, set), [[0, 2], [1, 3]]);
+        (0..2).for_each(|i| assert_near(found[i], expected[i], 1e-4 * expected[i], name));
+    }
+    for name in ["ozaki2018-large", "ozaki2018-small"] {
+        let [found, expected] = frequencies(&DirectDrive::default(), &values(name, &[]), [[0, 1], [2, 3]]);
+        (0..2).for_each(|i| assert_near(found[i], expected[i], 1e-4 * expected[i], name));
+    }
+    for name in ["arabagi2013-75hz", "arabagi2013-30hz"] {
+        let [found, expected] = frequencies(&FourBar::default(), &values(name, &[]), [[0, 1], [2, 3]]);
+        (0..2).for_each(|i| assert_near(found[i], expected[i], 1e-4 * expected[i], name));
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};
 
+use flap_core::drive::Wave;
 use flap_core::model::bimorph::{self, Bimorph};
 use flap_core::model::direct_drive::{self, DirectDrive};
 use flap_core::model::four_bar::{self, FourBar};
@@ -290,6 +291,57 @@ fn stiffening_adds_moments_to_stroke_and_hinge() {
         let [_, stiffer, audit] = rows(&set(&[("hinge_stiffening", hinge)]));
         assert!((stiffer / pitch_before - 1.0).abs() > 1e-3 && audit.abs() < 1e-6, "{name}");
     }
+}
+
+/// The derivative of `state` under a constant voltage, for a preset with changed parameters.
+fn derivative<M: Model<4, Input<f64> = Wave<f64>>>(
+    model: &M,
+    name: &str,
+    changes: &[(&str, f64)],
+    voltage: f64,
+    state: &[f64; 4],
+) -> [f64; 4] {
+    let (simulator, preset) = preset(name).unwrap();
+    let mut values = (preset.values)();
+    for (name, value) in changes {
+        values[Parameter::index(simulator.parameters(), name).unwrap()] = *value;
+    }
+    let constants = model.start(&values).unwrap().constants;
+    model.variant(&values).rhs(&constants, &Wave::with_rate(voltage, 0.0), 1.0, state)
+}
+
+/// The moment −k₃ φ³ accelerates the wing as a voltage does whose moment per volt is known. The moment −κ₃ ψ³ equals the
+/// moment of a hinge whose linear stiffness is larger by κ₃ ψ².
+fn assert_stiffening<M: Model<4, Input<f64> = Wave<f64>>>(
+    model: &M,
+    name: &str,
+    moment_per_volt: f64,
+    phi: f64,
+) {
+    let state = [phi, 0.6, 40.0, -50.0];
+    let at = |changes: &[(&str, f64)], voltage| derivative(model, name, changes, voltage, &state);
+    let (before, driven, stiffened) =
+        (at(&[], 10.0), at(&[], 11.0), at(&[("stroke_stiffening", 2e-3)], 10.0));
+    for i in 2..4 {
+        let expected = -2e-3 * phi.powi(3) / moment_per_volt * (driven[i] - before[i]);
+        assert_close(stiffened[i] - before[i], expected, 1e-8, name);
+    }
+    let (simulator, preset) = preset(name).unwrap();
+    let linear = (preset.values)()[Parameter::index(simulator.parameters(), "hinge_stiffness").unwrap()];
+    let stiffer = at(&[("hinge_stiffness", linear + 1e-5 * 0.36)], 10.0);
+    let cubic = at(&[("hinge_stiffening", 1e-5)], 10.0);
+    for i in 2..4 {
+        assert_close(cubic[i] - before[i], stiffer[i] - before[i], 1e-8, name);
+    }
+}
+
+#[test]
+fn cubic_springs_have_their_moments() {
+    let c = direct_drive::Constants::derive(&direct_drive::Params::ozaki2018_large()).unwrap();
+    assert_stiffening(&DirectDrive::default(), "ozaki2018-large", c.gamma, 0.4);
+    let c = four_bar::Constants::derive(&four_bar::Params::arabagi2013_75hz()).unwrap();
+    let per_volt = c.actuator.stiffness * c.actuator.deflection * four_bar::transmission(&c, 0.4).slope;
+    assert_stiffening(&FourBar::default(), "arabagi2013-75hz", per_volt, 0.4);
 }
 
 /// A field that softens the plates acts as a smaller modulus. The mean field of both plates is half of V_pp divided by

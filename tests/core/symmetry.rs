@@ -2,7 +2,7 @@
 
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{Row, Simulator, SolverSettings, Status, preset};
+use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, preset};
 
 use crate::robustness;
 use crate::rows;
@@ -100,6 +100,23 @@ fn symmetric_orbits_have_the_measures_of_their_whole_periods() {
         let mean = columns.iter().position(|column| column == "stroke_mean_deg").unwrap();
         assert_eq!(half.measures[mean] == 0.0, is_centred, "{name} {changes:?}");
     }
+}
+
+/// A constant part of the voltage that does not move the stroke still contributes power, so the period is not halved.
+#[test]
+fn a_bias_without_force_has_power() {
+    let (model, preset) = preset("ozaki2018-large").unwrap();
+    let mut values = (preset.values)();
+    for (name, value) in [("piezo_coefficient", 0.0), ("dielectric_loss", 0.15), ("drive_bias", 50.0)] {
+        values[Parameter::index(model.parameters(), name).unwrap()] = value;
+    }
+    let place = model.columns().iter().position(|column| column.name == "power_dielectric_mean_mw").unwrap();
+    let [halved, whole] = [true, false].map(|symmetry| {
+        let row = model.run_point(&PointRun::new(Backend::best(), &solver(symmetry), &values), None);
+        assert_eq!(row.status, Status::Periodic);
+        row.measures[place]
+    });
+    assert!(whole > 0.0 && (halved / whole - 1.0).abs() < 1e-9, "{halved}, {whole}");
 }
 
 /// Points without the symmetry have the same rows with and without the setting.

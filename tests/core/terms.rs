@@ -304,7 +304,8 @@ fn bias_between_the_plates_moves_the_mean_stroke() {
     let (up, rest, down) = (mean(40.0), mean(0.0), mean(-40.0));
     assert!(rest.abs() < 1e-5, "{rest}");
     assert_close(up, -down, 1e-5, "mirror images");
-    assert!((1.0..20.0).contains(&up), "{up}");
+    // flap's own results at rtol 1e-6; `bimorph::equations` checks voltages and forces.
+    assert_close(up, 4.83, 0.02, "mean stroke");
     let [weak] = Design::new("jafferis2016").with(&[("plate_ratio", 0.8)]).measures(["stroke_mean_deg"]);
     assert!(weak > 0.5, "plate 1 pulls more: {weak}");
 }

@@ -1,6 +1,6 @@
 //! Stroke and pitch of a wing from points in images, Ozaki and Hamaguchi 2018, (42), (43).
 
-use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
+use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre, strokes};
 
 /// A wing that rotates about `centre`, with its root 5 mm and its tip 22 mm away from `centre`.
 fn edge(centre: [f64; 2], stroke: f64) -> LeadingEdge {
@@ -14,8 +14,18 @@ fn a_wing_that_turns_about_a_point_has_its_centre_there() {
     let edges: Vec<_> = (0..40).map(|i| edge(centre, 0.2 * f64::from(i).sin())).collect();
     let found = rotation_centre(&edges).unwrap();
     assert!((found[0] - centre[0]).abs() < 1e-12 && (found[1] - centre[1]).abs() < 1e-13, "{found:?}");
-    for (i, edge) in edges.iter().enumerate() {
-        assert!((edge.stroke() - 0.2 * (i as f64).sin()).abs() < 1e-14);
+    for (i, stroke) in strokes(&edges).into_iter().enumerate() {
+        assert!((stroke - 0.2 * (i as f64).sin()).abs() < 1e-14);
+    }
+}
+
+/// A wing that flaps about the negative x-axis passes ±180° without a jump.
+#[test]
+fn strokes_do_not_jump_by_a_turn() {
+    let angles: Vec<f64> = (0..60).map(|i| 3.0 + 0.7 * (0.4 * f64::from(i)).sin()).collect();
+    let edges: Vec<_> = angles.iter().map(|&angle| edge([0.0, 0.0], angle)).collect();
+    for (stroke, angle) in strokes(&edges).into_iter().zip(angles) {
+        assert!((stroke - angle).abs() < 1e-14, "{stroke}, not {angle}");
     }
 }
 

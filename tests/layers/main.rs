@@ -16,6 +16,7 @@ const FORBIDDEN: &[&str] = &[
     "print!",
     "println!",
     "dbg!",
+    "std::{",
     "std::env",
     "std::fs",
     "std::io",

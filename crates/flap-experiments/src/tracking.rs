@@ -3,6 +3,8 @@
 //! The equations are (42) and (43) of Ozaki and Hamaguchi (2018), section 3.2. Points are in the image plane, which is
 //! perpendicular to the stroke axis. Any unit of length is allowed.
 
+use core::f64::consts::TAU;
+
 use flap_core::parameter::Invalid;
 
 /// Leading edge of a wing in one image.
@@ -22,18 +24,30 @@ impl LeadingEdge {
         [x / length, y / length]
     }
 
-    /// Returns the stroke (rad): the angle between the line from root to tip and the x-axis.
-    pub fn stroke(&self) -> f64 {
-        let [x, y] = self.direction();
-        libm::atan2(y, x)
-    }
-
     /// Returns the distance of a point from the line of the leading edge. The distance is positive to the left of the
     /// line.
     pub fn distance(&self, point: [f64; 2]) -> f64 {
         let [x, y] = self.direction();
         x * (point[1] - self.root[1]) - y * (point[0] - self.root[0])
     }
+}
+
+/// Returns the strokes (rad) of a wing in consecutive images: the angle between the line from root to tip and the x-axis.
+///
+/// The first angle is between −π and π. Each further angle differs by at most π from the angle before.
+pub fn strokes(edges: &[LeadingEdge]) -> Vec<f64> {
+    let mut before = 0.0;
+    let strokes = edges.iter().enumerate().map(|(image, edge)| {
+        let [x, y] = edge.direction();
+        let angle = libm::atan2(y, x);
+        let turns = if image == 0 { 0.0 } else { ((before - angle) / TAU).round() };
+        let stroke = angle + turns * TAU;
+        if stroke.is_finite() {
+            before = stroke;
+        }
+        stroke
+    });
+    strokes.collect()
 }
 
 /// Returns the pitch (rad) of a wing with its lower edge at a projected `distance` from its leading edge, Eq. (42).

@@ -1,7 +1,7 @@
 //! Filmed wings: computes stroke and pitch from points in images.
 
 use flap_core::simulate::Trajectory;
-use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
+use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre, strokes};
 use flap_sweep::files::record;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -27,7 +27,7 @@ pub(crate) fn track_wing<'py>(
 
     let mut columns = vec!["time_s".to_owned(), "stroke_deg".to_owned()];
     let mut rows: Vec<Vec<f64>> =
-        times.iter().zip(&edges).map(|(time, edge)| vec![*time, edge.stroke().to_degrees()]).collect();
+        times.iter().zip(strokes(&edges)).map(|(time, stroke)| vec![*time, stroke.to_degrees()]).collect();
     if let Some(chord) = chord {
         let chord = convert::number("chord", "a number, in the unit of the points", chord)?;
         columns.push("pitch_deg".to_owned());

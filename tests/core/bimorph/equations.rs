@@ -235,3 +235,37 @@ fn harmonics_widen_the_voltages() {
     let power = |row| super::measure(row, "power_capacitive_mw");
     assert_close(power(&wide) / power(&plain), 1.25 * 1.25, 1e-5, "capacitive power");
 }
+
+/// Half of the bias between the plates is added to the first voltage and subtracted from the second. The forces of two
+/// plates at the same voltage have the plate ratio.
+#[test]
+fn a_bias_and_unequal_plates_change_voltages_and_forces() {
+    let p = Params { drive_offset: 40.0, plate_ratio: 0.8, drive_voltage_pp: 200.0, ..params("T1") };
+    let c = Constants::derive(&p).unwrap();
+    let [first, second] = Bimorph::default().input(&c, 0.0);
+    assert_close(first.voltage.value, 120.0, 1e-14, "first voltage");
+    assert_close(second.voltage.value, 80.0, 1e-14, "second voltage");
+    let [first, second] = plates_under(&c, [Wave::with_rate(90.0, 0.0); 2]);
+    assert_close(second.force / first.force, 0.8, 1e-14, "force");
+    let field = super::measure(&super::settled(&p, 1e-6), "field_max_v_per_um");
+    assert_close(field, 220.0 / 135.0, 1e-5, "field");
+}
+
+/// The power lost in the hinge's damping is the moment of this damping times the pitch rate.
+#[test]
+fn losses_of_the_hinge_are_moments_times_rates() {
+    let p = Params { hinge_damping: 2e-9, ..params("T1") };
+    let damped = Constants::derive(&p).unwrap();
+    // The smallest further term selects the equations with all terms.
+    let general = Params { circulation_factor: 1e-300, ..p };
+    let model = Bimorph::default().variant(&general.to_values());
+    for Case { voltages, y, record, .. } in cases().into_iter().filter(|case| case.y[3] != 0.0) {
+        let plates = plates_under(&damped, voltages);
+        let plain = probe(&damped, &plates).signals(&y, &[0.0; 4]);
+        assert_close(plain.power_hinge_damping, 2e-9 * y[3] * y[3], 1e-13, &record.name);
+        let general = Probe { model: &model, ..probe(&damped, &plates) }.signals(&y, &[0.0; 4]);
+        assert_close(general.power_hinge_damping, plain.power_hinge_damping, 1e-13, &record.name);
+        assert_close(general.power_rotational, plain.power_rotational, 1e-12, &record.name);
+        assert!(plain.power_rotational > 0.0);
+    }
+}

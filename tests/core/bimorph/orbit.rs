@@ -10,6 +10,7 @@ use flap_core::ode::ensemble::Observer;
 use flap_core::ode::solve::solve;
 use flap_core::ode::{Ending, Start};
 
+use crate::data::worse;
 use crate::span::tolerances;
 
 /// The run of a point from the state `y`.
@@ -59,5 +60,5 @@ pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> (Signals<SignalCycle>
 /// Largest difference of two states, in units of the sizes that the reference tables use.
 pub(super) fn distance(a: &[f64; 4], b: &[f64; 4]) -> f64 {
     let scale = [3e-4, 0.25, 1.0, 800.0];
-    (0..4).map(|i| (a[i] - b[i]).abs() / scale[i]).fold(0.0, f64::max)
+    (0..4).map(|i| (a[i] - b[i]).abs() / scale[i]).fold(0.0, worse)
 }

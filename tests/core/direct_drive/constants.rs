@@ -22,6 +22,9 @@ fn equal_the_reference_to_1e_12() {
         let [mode_1, mode_2] = modes::<DirectDrive>(&c);
         let x_g = p.mass_centre_span + 0.5 * p.actuator_length;
         let wing = p.wing_mass * x_g * x_g + p.wing_inertia_chord;
+        // A beam of length l that bends to an arc by φ has the curvature φ/l.
+        let strain = laminate.neutral_axis / p.actuator_length;
+        assert_close(c.strain_per_stroke, strain, 1e-12, kind);
         for row in table("direct-drive/derived_constants.csv") {
             let actual = match row.text("name") {
                 "z0" => z[0],

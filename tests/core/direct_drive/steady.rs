@@ -1,6 +1,6 @@
 //! Settled orbits against the reference.
 
-use flap_core::model::direct_drive::{AddedMass, FlowDirection, LiftSign, Params};
+use flap_core::model::direct_drive::{AddedMass, Constants, FlowDirection, LiftSign, Params};
 use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, by_name};
 
@@ -76,6 +76,10 @@ fn compare(path: &str, adapt: impl Fn(&Record, Params) -> Params, rtol: f64, tol
                 largest = (error, what);
             }
         }
+        let peak = ["phi_max_deg", "phi_min_deg"].map(|column| record.number(column).abs().to_radians());
+        let constants = Constants::derive(&operating_point(&record)).unwrap();
+        let strain = constants.strain_per_stroke.abs() * peak[0].max(peak[1]);
+        assert_close(measure(&row, "strain_surface_max"), strain, tolerance, &record.name);
     }
     println!("{path}, rtol {rtol:.0e}: largest relative error {:.1e} ({})", largest.0, largest.1);
 }

@@ -1,11 +1,17 @@
 //! Waveforms and motions given as samples, interpolated by a cubic spline.
 
+use core::f64::consts::TAU;
 use std::sync::Arc;
+
+use nalgebra::Complex;
 
 use crate::num::Real;
 
 /// Smallest number of samples that a record may have.
 const FEWEST: usize = 4;
+
+/// Magnitude below which a record has no first harmonic, relative to the range of the record.
+const NO_HARMONIC: f64 = 1e-9;
 
 /// Continuation of a record after its last sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -67,6 +73,8 @@ struct Record {
     values: Vec<f64>,
     /// Mean value of the function over its duration.
     mean: f64,
+    /// Phase (rad) of the first harmonic of a periodic function, relative to a cosine; NaN without a first harmonic.
+    first_phase: f64,
     /// Smallest and largest value of the function, also between samples.
     range: [f64; 2],
     /// Second derivative with respect to phase at each sample.
@@ -113,7 +121,8 @@ impl Samples {
         };
         let mean = mean(&phases, &values, &bends);
         let range = spline_range(&phases, &values, &bends);
-        Ok(Samples(Arc::new(Record { duration, phases, values, mean, range, bends })))
+        let first_phase = first_phase(&phases, &bends, range);
+        Ok(Samples(Arc::new(Record { duration, phases, values, mean, first_phase, range, bends })))
     }
 
     /// Returns the time from the first to the last sample (s).
@@ -125,6 +134,12 @@ impl Samples {
     #[inline(always)]
     pub(super) fn mean(&self) -> f64 {
         self.0.mean
+    }
+
+    /// Returns the phase (rad) of the first harmonic of a periodic record, relative to a cosine. The phase is NaN if the
+    /// record has no first harmonic.
+    pub(super) fn first_phase(&self) -> f64 {
+        self.0.first_phase
     }
 
     /// Returns the value of the function at a phase, and its first and second derivative with respect to phase.
@@ -189,6 +204,23 @@ fn mean(phases: &[f64], values: &[f64], bends: &[f64]) -> f64 {
         0.5 * width * (values[i] + values[i - 1]) - width * width * width / 24.0 * (bends[i] + bends[i - 1])
     });
     pieces.sum()
+}
+
+/// Returns the phase (rad) of the first harmonic of a periodic cubic spline s(p), relative to a cosine.
+///
+/// Integration by parts leaves only the third derivative, which is constant in each piece:
+///
+/// ```text
+/// ∫ s e^(−2πip) dp = −(2π)⁻⁴ Σ s‴ (e^(−2πi p_end) − e^(−2πi p_begin))
+/// ```
+fn first_phase(phases: &[f64], bends: &[f64], [low, high]: [f64; 2]) -> f64 {
+    let pieces = (1..phases.len()).map(|i| {
+        let slope = (bends[i] - bends[i - 1]) / (phases[i] - phases[i - 1]);
+        let [end, begin] = [i, i - 1].map(|i| Complex::cis(-TAU * phases[i]));
+        (begin - end) * slope
+    });
+    let first = pieces.sum::<Complex<f64>>() / TAU.powi(4);
+    if first.norm() > NO_HARMONIC * (high - low) { first.arg() } else { f64::NAN }
 }
 
 /// Returns the smallest and the largest value of a cubic spline.

@@ -1,5 +1,7 @@
 //! The part of the drive that all lanes of an ensemble share: the waveform and the prescribed quantity.
 
+use core::f64::consts::FRAC_PI_2;
+
 use super::constants::{DriveConstants, Wave};
 use super::parameters::{Shape, StrokeMode, WaveformParameters};
 use super::samples::Samples;
@@ -140,6 +142,14 @@ impl Drive {
         match &self.waveform {
             Waveform::Samples(samples) => samples.mean(),
             Waveform::Shape(_) | Waveform::Chirp => 0.0,
+        }
+    }
+
+    /// Returns the phase (rad) of the first harmonic of the waveform, relative to a cosine.
+    pub(crate) fn first_phase(&self) -> f64 {
+        match &self.waveform {
+            Waveform::Samples(samples) => samples.first_phase(),
+            Waveform::Shape(_) | Waveform::Chirp => -FRAC_PI_2,
         }
     }
 

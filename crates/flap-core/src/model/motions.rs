@@ -26,8 +26,8 @@ pub trait Motions<const N: usize>: Model<N> {
     /// the stroke excites.
     fn modes(c: &Self::Constants<f64>) -> Vec<Mode>;
 
-    /// Returns the voltage (V) at which all angles are zero in the rest position.
-    fn rest_voltage(c: &Self::Constants<f64>) -> f64;
+    /// Returns the constants with the constant drive voltage at which all angles are zero in the rest position.
+    fn resting(c: &Self::Constants<f64>) -> Self::Constants<f64>;
 
     /// Returns the state immediately after a torque impulse in the rest position, at which the stroke has the rate
     /// `stroke_rate` (rad/s).
@@ -51,11 +51,9 @@ pub trait Motions<const N: usize>: Model<N> {
         (self.with_drive(|drive| drive.with_waveform(Waveform::Chirp)), c)
     }
 
-    /// Returns the model and the constants with the constant drive voltage [`Motions::rest_voltage`]. The third result
-    /// is the state [`Motions::struck`].
+    /// Returns the model and the constants of a free motion. The third result is the state [`Motions::struck`].
     fn released(&self, c: &Self::Constants<f64>, stroke_rate: f64) -> (Self, Self::Constants<f64>, [f64; N]) {
-        let still = Self::with_drive_constants(c, Self::drive(c).still(Self::rest_voltage(c)));
-        (self.with_drive(|_| Drive::SINE), still, Self::struck(c, stroke_rate))
+        (self.with_drive(|_| Drive::SINE), Self::resting(c), Self::struck(c, stroke_rate))
     }
 
     /// Returns the state and the signals of a wing with imposed stroke and pitch. `stroke` and `pitch` contain value

@@ -2,9 +2,6 @@
 
 use super::signal::{DEGREES, GRAVITY};
 
-/// Phase of a sine relative to a cosine (rad), the convention of [`SignalCycle::phase`](super::SignalCycle::phase).
-pub(crate) const SINE_PHASE: f64 = -core::f64::consts::FRAC_PI_2;
-
 /// Returns the angle (deg) by which one phase (rad) lags another, in (−180, 180].
 pub fn lag_degrees(of: f64, behind: f64) -> f64 {
     let degrees = (behind - of) * DEGREES;

@@ -45,7 +45,8 @@ impl Gradients for Vehicle {
             let back = if is_one_sided { 0.0 } else { change.size };
             let (ahead, behind) = (moved(&change.ahead, change.size), moved(&change.behind, -back));
             let trouble = wings.iter().find_map(|wing| wing.trouble(i));
-            let nothing = wings.iter().all(|wing| wing.slopes[i].is_none()) && ahead == behind;
+            let is_same = ahead.iter().zip(&behind).all(|(one, other)| one.total_cmp(other).is_eq());
+            let nothing = is_same && wings.iter().all(|wing| wing.slopes[i].is_none());
             let slope = |j: usize| {
                 if here[j].is_nan() {
                     return Err(NoSlope::Missing);

@@ -115,7 +115,11 @@ impl Wings {
         let largest = |value: fn(&Row) -> f64| rows.iter().map(|row| value(row)).fold(f64::NAN, f64::max);
         let settled = rows.iter().all(|row| !row.measures.is_empty());
         let known = rows.iter().all(|row| !row.state.is_empty());
-        let repeats = rows.iter().all(|row| row.period > 0);
+        let longest = rows.iter().map(|row| row.period).max()?;
+        // The motion of the vehicle repeats after the least common multiple of the periods of its wings.
+        let is_common =
+            |period: &u32| rows.iter().all(|row| row.period > 0 && period.is_multiple_of(row.period));
+        let period = (1..=longest.pow(2)).map(|count| count * longest).find(is_common);
         let all = |is_known: bool, value: fn(&Row) -> f64| if is_known { largest(value) } else { f64::NAN };
         let measures: Vec<&[f64]> = rows.iter().map(|row| row.measures.as_slice()).collect();
         let designs = || self.designs.iter().filter_map(|design| design.row.as_ref());
@@ -125,7 +129,7 @@ impl Wings {
             measures: if settled { vehicle.measures(&self.values, &measures) } else { Vec::new() },
             cycles: designs().map(|row| row.cycles).sum(),
             residual: all(known, |row| row.residual),
-            period: rows.iter().map(|row| row.period).max().filter(|_| repeats).unwrap_or(0),
+            period: period.unwrap_or(0),
             floquet_max: all(settled, |row| row.floquet_max),
             error_estimate: all(settled, |row| row.error_estimate),
             state: rows.iter().filter(|_| known).flat_map(|row| row.state.iter().copied()).collect(),

@@ -1,7 +1,7 @@
 //! `flap test track`: stroke, pitch and rotation centre of a filmed wing.
 
 use flap_core::simulate::Trajectory;
-use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre};
+use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre, strokes};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::record::{self, Record};
 
@@ -25,8 +25,8 @@ pub(super) fn run(args: &TrackArgs) -> Result<Exit, Failure> {
 
     let mut motion =
         Trajectory { columns: ["time_s", "stroke_deg"].map(str::to_owned).to_vec(), rows: Vec::new() };
-    for (time, edge) in times.iter().zip(&edges) {
-        motion.rows.push(vec![*time, edge.stroke().to_degrees()]);
+    for (time, stroke) in times.iter().zip(strokes(&edges)) {
+        motion.rows.push(vec![*time, stroke.to_degrees()]);
     }
     if let Some(chord) = args.chord {
         motion.columns.push("pitch_deg".to_owned());

@@ -1,6 +1,7 @@
 //! The bimorph model: equations of motion, signals, columns of rows, and single motions.
 
-use core::f64::consts::{FRAC_PI_2, PI};
+use core::cmp::Ordering;
+use core::f64::consts::PI;
 
 use super::constants::{Constants, check_transitions};
 use super::general::{self, Air, air_at};
@@ -61,8 +62,8 @@ type Column = Derived<Bimorph, Constants<f64>, Signals>;
 
 #[rustfmt::skip]
 const DERIVED: &[Column] = &[
-    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the drive -sin(w t), from -180 to 180; the drive has the phase of the difference F_1 - F_2 of the plates' forces",
-        |_, _, cycle| lag_degrees(cycle.stroke.phase(), DRIVE_PHASE)).over_wings(Each),
+    Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the difference F_1 - F_2 of the plates' forces, from -180 to 180; F_1 - F_2 has the opposite phase of the waveform, such as -sin(w t)",
+        |model, _, cycle| lag_degrees(cycle.stroke.phase(), model.drive.first_phase() + PI)).over_wings(Each),
     Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags the first harmonic of the stroke, from -180 to 180",
         |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
     Column::new("stroke_pp_deg_per_v", "deg/V", "stroke_pp_deg divided by drive_voltage_pp: the vertical axis of Figs. 4a and 5",
@@ -118,8 +119,8 @@ fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
     }
 }
 
-/// Phase of the drive (rad): F₁ − F₂ is proportional to −sin ωt, which has the phase π/2 relative to the cosine.
-const DRIVE_PHASE: f64 = FRAC_PI_2;
+/// Number of halvings after which the voltage that balances two plates is exact to rounding.
+const MOST_HALVINGS: usize = 60;
 
 /// Returns the largest displacement of the actuator's tip (m).
 fn tip_peak(c: &Constants<f64>, cycle: &Signals<SignalCycle>) -> f64 {
@@ -443,23 +444,51 @@ impl Motions<4> for Bimorph {
     /// independent:
     ///
     /// ```text
-    /// √((K_act(0) + K_t)/m_e)/2π     √(κ_wh/I_xx)/2π
+    /// ω_s = √((K_act(0) + K_t)/m_e)     ω_h = √(κ_wh/I_xx)
     /// ```
     ///
-    /// Added mass of the sections adds a₁₁ T² to m_e and a₂₂ to I_xx.
+    /// Added mass of the sections adds a₁₁ T² to m_e and a₂₂ to I_xx. It also couples both motions, by the product e of
+    /// the off-diagonal entries of the mass matrix, divided by the product of its diagonal:
+    ///
+    /// ```text
+    /// (1 − e) ω⁴ − (ω_s² + ω_h²) ω² + ω_s² ω_h² = 0     e = a₁₂ (I_xz + a₁₂) T²/((m_e + a₁₁ T²)(I_xx + a₂₂))
+    /// ```
     fn modes(c: &Constants<f64>) -> Vec<Mode> {
         let stiffness = secant_stiffness(c, 0.0) + c.k_t;
-        let added = c.added.a11 * c.ratio * c.ratio;
-        let squares = [
-            stiffness * c.inverse_m_e / (1.0 + added * c.inverse_m_e),
-            c.kappa_wh * c.inverse_i_xx / (1.0 + c.added.a22 * c.inverse_i_xx),
-        ];
+        let squared_ratio = c.ratio * c.ratio;
+        let inverse_mass = c.inverse_m_e / (1.0 + c.added.a11 * squared_ratio * c.inverse_m_e);
+        let inverse_inertia = c.inverse_i_xx / (1.0 + c.added.a22 * c.inverse_i_xx);
+        let [stroke, hinge] = [stiffness * inverse_mass, c.kappa_wh * inverse_inertia];
+        let coupling = c.added.a12 * (c.i_xz + c.added.a12) * squared_ratio * inverse_mass * inverse_inertia;
+        let squares = if coupling == 0.0 {
+            [stroke, hinge]
+        } else {
+            let root = ((stroke - hinge).powi(2) + 4.0 * coupling * stroke * hinge).sqrt();
+            let sum = stroke + hinge + root;
+            let [slow, fast] = [2.0 * stroke * hinge / sum, 0.5 * sum / (1.0 - coupling)];
+            if stroke < hinge { [slow, fast] } else { [fast, slow] }
+        };
         Mode::of(["mode_stroke", "mode_hinge"], squares.map(|square| square.sqrt() / (2.0 * PI)))
     }
 
-    /// Returns ½V_pp, the rest voltage of both plates.
-    fn rest_voltage(c: &Constants<f64>) -> f64 {
-        c.drive.bias
+    /// Returns the constants with ½V_pp on both plates. If the plates differ, a difference of the voltages balances
+    /// their forces.
+    fn resting(c: &Constants<f64>) -> Constants<f64> {
+        let still = c.drive.still(c.drive.bias);
+        let with_half = |half_offset: f64| Constants { half_offset, ..*c }.with_drive(still);
+        let [mut low, mut high] = [-c.drive.bias, c.drive.bias];
+        // The force of the first plate minus the force of the second plate increases with the difference.
+        for _ in 0..MOST_HALVINGS {
+            let middle = f64::midpoint(low, high);
+            let balanced = with_half(middle);
+            let [first, second] = plates(&balanced, &Wave::with_rate(0.0, 0.0)).map(|plate| plate.force);
+            match first.total_cmp(&second) {
+                Ordering::Equal => return balanced,
+                Ordering::Less => low = middle,
+                Ordering::Greater => high = middle,
+            }
+        }
+        with_half(f64::midpoint(low, high))
     }
 
     /// Returns the state with ψ̇ = (I_xz + a₁₂) T ẋ/(I_xx + a₂₂), from (2) and the added mass of the sections.

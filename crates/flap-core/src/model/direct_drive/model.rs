@@ -11,7 +11,7 @@ use crate::body::{BodyMotion, BodyTerms};
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::Measure::{Peak, Supply};
 use crate::model::OverWings::{Each, Sum};
-use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, hinge_strain, lag_degrees};
+use crate::model::readings::{charging, efficiency, grams_force, hinge_strain, lag_degrees};
 use crate::model::stroke_and_pitch as states;
 use crate::model::{
     Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, SignalSet, Symmetry,
@@ -48,7 +48,7 @@ type Column = Derived<DirectDrive, Constants<f64>, Signals>;
 #[rustfmt::skip]
 const DERIVED: &[Column] = &[
     Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the first harmonic of the drive voltage, from -180 to 180",
-        |_, _, cycle| lag_degrees(cycle.stroke.phase(), SINE_PHASE)).over_wings(Each),
+        |model, _, cycle| lag_degrees(cycle.stroke.phase(), model.drive.first_phase())).over_wings(Each),
     Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags the first harmonic of the stroke, from -180 to 180",
         |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
     Column::new("lift_mean_gf", "gf", "mean lift of the wing in grams-force",
@@ -247,7 +247,8 @@ impl Model<4> for DirectDrive {
             return None;
         }
         let stroke = c.gamma * c.drive.bias / c.k_phi;
-        let second_half = (stroke == 0.0).then_some(second_half as fn(&_) -> _);
+        // A constant part of the voltage contributes power also if it does not move the stroke.
+        let second_half = (c.drive.bias == 0.0).then_some(second_half as fn(&_) -> _);
         Some(Symmetry { centre: [stroke, 0.0, 0.0, 0.0], second_half })
     }
 
@@ -337,8 +338,8 @@ impl Motions<4> for DirectDrive {
         Mode::coupled(DirectDrive::mass_at_rest(c), [c.k_phi, c.k_w])
     }
 
-    fn rest_voltage(_c: &Constants<f64>) -> f64 {
-        0.0
+    fn resting(c: &Constants<f64>) -> Constants<f64> {
+        Self::with_drive_constants(c, Self::drive(c).still(0.0))
     }
 
     fn struck(c: &Constants<f64>, stroke_rate: f64) -> [f64; 4] {

@@ -14,7 +14,7 @@ use crate::body::{BodyMotion, BodyTerms};
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::model::Measure::{Peak, Supply};
 use crate::model::OverWings::{Each, Sum};
-use crate::model::readings::{SINE_PHASE, charging, efficiency, grams_force, hinge_strain, lag_degrees};
+use crate::model::readings::{charging, efficiency, grams_force, hinge_strain, lag_degrees};
 use crate::model::stroke_and_pitch as states;
 use crate::model::{
     Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, Terms, Unit,
@@ -56,7 +56,7 @@ type Column = Derived<FourBar, Constants<f64>, Signals>;
 #[rustfmt::skip]
 const DERIVED: &[Column] = &[
     Column::new("stroke_lag_deg", "deg", "phase by which the first harmonic of the stroke lags the first harmonic of the drive voltage, from -180 to 180",
-        |_, _, cycle| lag_degrees(cycle.stroke.phase(), SINE_PHASE)).over_wings(Each),
+        |model, _, cycle| lag_degrees(cycle.stroke.phase(), model.drive.first_phase())).over_wings(Each),
     Column::new("pitch_lag_deg", "deg", "phase by which the first harmonic of the pitch lags the first harmonic of the stroke, from -180 to 180: the phase shift of Arabagi et al. 2013",
         |_, _, cycle| lag_degrees(cycle.pitch.phase(), cycle.stroke.phase())).over_wings(Each),
     Column::new("lift_mean_gf", "gf", "mean lift of the wing in grams-force",
@@ -350,8 +350,8 @@ impl Motions<4> for FourBar {
         Mode::coupled(mass_matrix(c, links.inertia, 0.0, 1.0), [stiffness, c.wing.hinge_stiffness])
     }
 
-    fn rest_voltage(c: &Constants<f64>) -> f64 {
-        c.actuator.rest_voltage
+    fn resting(c: &Constants<f64>) -> Constants<f64> {
+        Self::with_drive_constants(c, Self::drive(c).still(c.actuator.rest_voltage))
     }
 
     fn struck(c: &Constants<f64>, stroke_rate: f64) -> [f64; 4] {
