@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -12,8 +11,8 @@ import numpy as np
 
 from . import _labels
 from ._flapwing import quantity, usual_measure
+from ._mistakes import callers_level, reading, refused, unknown
 from ._mistakes import listed as names_listed
-from ._mistakes import reading, refused, unknown
 from ._sweep import read
 from ._table import Table
 
@@ -166,7 +165,7 @@ class Data:
             warnings.warn(
                 f"drawn: {name} = {value}, the middle of {len(values)} values; "
                 f"{name}={other} as a keyword chooses another{remedy}",
-                stacklevel=_callers_level(),
+                stacklevel=callers_level(),
             )
             data = data.rows(data[name].astype(values.dtype) == middle)
         return data
@@ -353,14 +352,6 @@ class Shown:
     def value(self, value: Any) -> str:
         """Return a value of the table as text: a number in the readable unit, without the unit."""
         return str(value) if self.text else _labels.number(float(value) * self.factor)
-
-
-def _callers_level() -> int:
-    """Return the stack level of the user's call, counted from the function that calls `_callers_level`."""
-    level, frame = 1, sys._getframe(1)
-    while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("flapwing."):
-        level, frame = level + 1, frame.f_back
-    return level
 
 
 def _check_lengths(columns: Mapping[str, np.ndarray]) -> None:
