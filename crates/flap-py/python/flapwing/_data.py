@@ -132,12 +132,13 @@ class Data:
         return found
 
     def one_sample(self, shown: Sequence[str] = ()) -> Data:
-        """Return the designs of a sample. If the sample is combined with an axis that is not in `shown`, return only
-        the rows at the middle value of the axis."""
+        """Return the designs of a grid. If a sample is combined with an axis that is not in `shown`, return only the
+        rows at the middle value of the axis."""
         left = [name for name in self.axes() if self.on_a_grid(name)]
-        if not left or len(left) == len(self.axes()):
+        if len(left) == len(self.axes()):
             return self
-        return self._at_the_middle([name for name in left if name not in shown])
+        drawn = [self.axis(name) for name in shown]
+        return self._at_the_middle([name for name in left if name not in drawn])
 
     def for_picture(self, names: Sequence[str], remedy: str = "") -> Data:
         """Return one row for each combination of values in the columns `names`. All axes that are not in `names` are

@@ -238,7 +238,8 @@ def rank_correlations(
         The parameters to correlate, or any columns of numbers. The default of `parameters` is all parameters of the
         table.
     where, **slices
-        The selection of rows, as for `flapwing.plot.histogram`.
+        The selection of rows, as for `flapwing.plot.histogram`. If a grid combines a sample with an axis that is not
+        selected, only the rows at the middle value of this axis are used.
 
     Returns
     -------
@@ -374,7 +375,8 @@ def describe(
         Percentages from 0 to 100. A percentile between the values of two designs is interpolated linearly, like a
         percentile of ``flap describe``.
     where, **slices
-        The selection of rows, as for `flapwing.plot.histogram`.
+        The selection of rows, as for `flapwing.plot.histogram`. If a grid combines a sample with an axis that is not
+        selected, only the rows at the middle value of this axis are used.
 
     Returns
     -------
