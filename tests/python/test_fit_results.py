@@ -120,6 +120,15 @@ def test_next_measurements_are_readings_of_the_targets_data_set():
     # Readings of the other robot reduce this error only through the shared drag.
     other = one.next_measurements({"drive_frequency": [105.0, 130.0]}, target, count=1, data_set="soft")
     assert plan.errors[0] < other.errors[0] < other.now == plan.now
+    with pytest.raises(ValueError, match="different standard errors of `stroke_pp_deg`\n.*data_set=: soft, stiff"):
+        one.predict({"drive_frequency": 105.0}, "stroke_pp_deg", reading=True)
+    for name in stiffness:
+        value, new = (
+            one.predict({"drive_frequency": 105.0}, "stroke_pp_deg", data_set=name, reading=flag)
+            for flag in (False, True)
+        )
+        noise = {"soft": 0.03 * value.value[0], "stiff": 1.0}[name]
+        assert new.error[0] == pytest.approx(np.hypot(value.error[0], noise), rel=1e-12)
     goal = {"measure": "stroke_pp_deg", "drive_frequency": 105.0}
     for name in stiffness:
         now = one.next_measurements({"drive_frequency": 105.0}, goal, count=1, data_set=name).now
