@@ -111,7 +111,8 @@ class Fit(Solution):
         points : dict, DataFrame or Grid
             Columns of parameters, as in `Readings`. You can leave out parameters that have the same value in all data
             sets. A grid sets the parameters of its axes, its derived parameters, and the parameters in ``[params]``
-            that were not fitted. The remaining parameters of the grid's preset or device are not used.
+            that were not fitted. The remaining parameters of the grid's preset or device are not used, so the grid must
+            have one preset or device.
         measure : str
             The measure to predict. The data need not have readings of the predicted measure.
         data_set : str, optional
