@@ -105,6 +105,7 @@ def test_least_squares_with_bounds_are_exact():
         ({"lift_coefficient": [1.0, 2.0]}, "columns differ in length: `attack_deg` has 13, `lift_coefficient` has 2"),
         ({"pressure": 0.25}, "column `pressure` is a single value"),
         ({"lift_coefficient": np.full(13, np.nan)}, "`lift_coefficient` must contain finite numbers"),
+        ({"lift_coefficient": np.ma.masked_less(ATTACK, 1.0)}, "`lift_coefficient` must contain finite numbers"),
         (dict.fromkeys(["lift_coefficient", "drag_coefficient", "pressure"]), "no column to fit"),
     ],
 )

@@ -195,6 +195,13 @@ def test_readings_are_on_the_branch_of_their_experiment():
             told = result.predict({"drive_frequency": frequencies}, "stroke_pp_deg", data_set=way)
             assert told.value[-1] == pytest.approx(stroke[place], rel=0.02)
             assert len(told.value) == len(told.error) == len(told.status) == len(frequencies)
+    # Planned readings, and predictions of plans, are on the branch of their data set.
+    goal = {"measure": "stroke_pp_deg", "drive_frequency": place}
+    for way, stroke in strokes.items():
+        now = result.predict({"drive_frequency": place}, "stroke_pp_deg", data_set=way).error[0]
+        plan = result.next_measurements({"drive_frequency": [place]}, goal, count=1, data_set=way)
+        assert plan.now == pytest.approx(now, rel=1e-3)
+        assert plan.errors[0] == pytest.approx((now**-2 + (0.02 * stroke[place]) ** -2) ** -0.5, rel=1e-3)
 
 
 def test_readings_without_a_settled_motion_are_told():

@@ -120,6 +120,15 @@ def test_next_measurements_are_readings_of_the_targets_data_set():
     # Readings of the other robot reduce this error only through the shared drag.
     other = one.next_measurements({"drive_frequency": [105.0, 130.0]}, target, count=1, data_set="soft")
     assert plan.errors[0] < other.errors[0] < other.now == plan.now
+    with pytest.raises(ValueError, match="different standard errors of `stroke_pp_deg`\n.*data_set=: soft, stiff"):
+        one.predict({"drive_frequency": 105.0}, "stroke_pp_deg", reading=True)
+    for name in stiffness:
+        value, new = (
+            one.predict({"drive_frequency": 105.0}, "stroke_pp_deg", data_set=name, reading=flag)
+            for flag in (False, True)
+        )
+        noise = {"soft": 0.03 * value.value[0], "stiff": 1.0}[name]
+        assert new.error[0] == pytest.approx(np.hypot(value.error[0], noise), rel=1e-12)
     goal = {"measure": "stroke_pp_deg", "drive_frequency": 105.0}
     for name in stiffness:
         now = one.next_measurements({"drive_frequency": 105.0}, goal, count=1, data_set=name).now
@@ -135,7 +144,7 @@ def test_plans_of_robust_fits_begin_with_the_error_of_the_fit(loss):
         assert one.next_measurements(candidates, name, count=1).now == pytest.approx(estimate.error, rel=1e-3)
 
 
-def test_a_grid_of_points_sets_its_fixed_parameters():
+def test_a_grid_of_points_sets_its_fixed_parameters(tmp_path):
     """The data share the voltage and an option; the keyword sets the voltage of the fit."""
     points = {"drive_frequency": np.linspace(90.0, 130.0, 4), "drive_voltage_pp": np.full(4, 160.0)}
     data = {name: cells for name, cells in readings(points=points).items() if name != "drive_voltage_pp"}
@@ -159,9 +168,17 @@ def test_a_grid_of_points_sets_its_fixed_parameters():
         made[0].predict(single, "lift_mean_mn").value
         == made[0].predict({"drive_frequency": 90.0}, "lift_mean_mn").value
     )
+    bee, bee2 = str(tmp_path / "bee.toml"), str(tmp_path / "bee2.toml")
+    for path in (bee, bee2):
+        made[0].write_device(path)
     for grid, says in [
         ({"preset": "ozaki2018-large"}, "points is a grid of `direct-drive`, but the fit is of `bimorph`"),
         ({"preset": PRESET, "params": {"drive_frequency": "resonance"}}, "points has no value of `drive_frequency`"),
+        ({"preset": [PRESET, "jafferis2016-improved"]}, "points is a grid with several values of `preset`.*\ngive one"),
+        (
+            {"device": [bee, bee2]},
+            "points is a grid with several values of `device`, but a fit has one design\ngive one",
+        ),
     ]:
         with pytest.raises(ValueError, match=says):
             made[0].predict(flapwing.Grid(grid), "stroke_pp_deg")

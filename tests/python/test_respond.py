@@ -124,6 +124,9 @@ def test_parameters_and_measures():
     assert table["lift_sign"].value == "corrected" and table["lift_sign"].options == ("corrected", "printed")
     unset = flapwing.params("direct-drive")["drive_frequency"]
     assert math.isnan(unset.value) and not unset.is_number and frequency.is_number and not table["lift_sign"].is_number
+    searched = {"params": {"drive_frequency": "resonance"}, "resonance": {"from": 100, "to": 120}}
+    found = flapwing.params({"preset": "ozaki2018-large", **searched, "axes": {"drive_voltage_pp": [60, 80]}})
+    assert math.isnan(found["drive_frequency"].value) and found["drive_voltage_pp"].value == 60.0
     lift = flapwing.measures("bimorph")["lift_mean_mn"]
     assert (lift.name, lift.unit) == ("lift_mean_mn", "mN") and lift.doc
     rate = flapwing.states("bimorph")["pitch_rate"]

@@ -91,6 +91,29 @@ def test_rows_in_a_file_are_read_when_they_are_asked_for(tmp_path, monkeypatch):
     assert len(table) == 26
 
 
+def test_rows_in_a_file_are_those_of_the_table(tmp_path):
+    path = tmp_path / "rows.csv"
+    table = flapwing.sweep(QUICK, out=path)
+    flapwing.sweep(QUICK.replace("to = 120", "to = 130"), out=path, restart=True)
+    with pytest.raises(ValueError, match="rows.csv does not have the rows of this table: grid in `meta`.*\\n.*another"):
+        table["lift_mean_mn"]
+    # An interrupted repetition of the same sweep has some of the rows.
+    grid = QUICK.replace("n = 26", "n = 20001") + "[solver]\nrtol = 1e-3\nmax_cycles = 2\n"
+    again = flapwing.sweep(grid, out=path, restart=True)
+    path.unlink()
+    (tmp_path / "rows.csv.meta.toml").unlink()
+
+    def stop(done, _):
+        if done >= 8:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        flapwing.sweep(grid, out=path, threads=1, progress=stop)
+    with pytest.warns(UserWarning, match="rows.csv is unfinished") as warned:
+        assert 0 < len(again) < 20001
+    assert warned[0].filename == __file__
+
+
 def test_rows_do_not_depend_on_threads():
     one, two = flapwing.sweep(GRID, threads=1), flapwing.sweep(GRID, threads=2)
     for column in one.columns:

@@ -4,7 +4,7 @@ import flapwing
 import numpy as np
 import pandas
 from figures import HERTZ, VOLTS, fails, grid, legend, lines
-from flapwing import plot
+from flapwing import analysis, plot
 from numpy.testing import assert_array_equal
 
 
@@ -50,3 +50,21 @@ def test_pandas_words_and_flags_with_gaps():
     table["stable"] = pandas.array([True, None] * 7 + [False], dtype="boolean")
     ax = plot.response(table, "lift_mean_mn")
     assert np.isnan(lines(ax)[0].get_ydata()[3])
+
+
+def test_masked_cells_are_left_out():
+    """Such as the columns of NetCDF files."""
+    table = {
+        "hinge_stiffness": np.array([1.0, 2.0, 3.0, 4.0]),
+        "status": np.array(["periodic"] * 4),
+        "lift_mean_mn": np.ma.array([1.0, -999.0, 4.0, 3.0], mask=[False, True, False, False]),
+        "cycles": np.ma.array([8, 9, 9, 0], mask=[False, False, False, True]),
+    }
+    found = analysis.describe(table)
+    assert (found["lift_mean_mn"].designs, found["lift_mean_mn"].smallest) == (3, 1.0)
+    assert (found["cycles"].designs, found["cycles"].smallest) == (3, 8.0)
+    (one,) = analysis.rank_correlations(table)
+    assert one.designs == 3 and one.correlation == 0.5
+    assert len(plot.scatter(table, "hinge_stiffness", "lift_mean_mn").collections[0].get_offsets()) == 3
+    table["status"] = np.ma.array(table["status"], mask=[True, False, False, False])
+    assert analysis.describe(table, "lift_mean_mn")["lift_mean_mn"].designs == 2

@@ -1,5 +1,7 @@
 """Scatters, histograms and tornados of samples."""
 
+import warnings
+
 import flapwing
 import numpy as np
 import pytest
@@ -150,11 +152,27 @@ def test_a_tornado_of_a_sample(sample, tmp_path):
         assert len(plot.tornado(path, "power_mean_mw", ["hinge_stiffness"]).patches) == 1
 
 
-@pytest.mark.parametrize("function", [plot.scatter, plot.histogram, plot.tornado])
+@pytest.mark.parametrize("function", [plot.scatter, plot.pareto, plot.histogram, plot.tornado, analysis.describe])
 def test_of_axes_beside_a_sample_a_value_is_chosen(crossed, function):
     with pytest.warns(UserWarning, match="drive_frequency = 105 Hz, the middle of 3 values"):
         function(crossed)
-    drawn(function(crossed, drive_frequency=105.0))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        function(crossed, drive_frequency=105.0)
+
+
+@pytest.mark.parametrize("function", [plot.scatter, plot.pareto])
+def test_an_axis_that_gives_the_colours_has_all_its_values(crossed, function):
+    (points,) = drawn(function(crossed, color="drive_frequency")).collections
+    assert len(points.get_offsets()) == 120
+    with pytest.warns(UserWarning, match="drive_frequency = 105 Hz"):
+        assert len(function(crossed).collections[0].get_offsets()) == 40
+
+
+def test_all_designs_of_a_grid_without_a_sample_are_used():
+    table = grid(drive_voltage_pp=VOLTS, drive_frequency=HERTZ)
+    assert sum(bar.get_height() for bar in plot.histogram(table).patches) == 15
+    assert analysis.describe(table)["lift_mean_mn"].designs == 15
 
 
 def test_lines_of_a_sample_are_refused(sample):

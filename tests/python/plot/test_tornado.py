@@ -46,6 +46,10 @@ def test_fixed_parameters_and_ranges_of_ones_own():
     assert (hertz.below, hertz.above) == (100.0, 104.0)
     wanted = flapwing.run("ozaki2018-large", drive_voltage_pp=80.0, drive_frequency=104.0, rtol=1e-5)
     assert hertz.high == wanted["power_mean_mw"]
+    (falling,) = analysis.sensitivities(
+        "ozaki2018-large", "power_mean_mw", {"drive_frequency": (104.0, 100.0)}, drive_voltage_pp=80.0, rtol=1e-5
+    )
+    assert falling == hertz
 
 
 def test_tornado_draws_bars_in_order(sensitivities):
@@ -69,6 +73,11 @@ def test_tornado_draws_bars_in_order(sensitivities):
 def test_tornado_runs_what_it_draws():
     ax = plot.tornado("ozaki2018-large", "lift_mean_mn", ["wing_length"], change=0.01)
     assert legend(ax) == ["−1 %", "+1 %"]
+
+
+def test_the_lower_value_of_a_negative_parameter_has_the_larger_size(sensitivities):
+    negative = dataclasses.replace(sensitivities[0], value=-10.0, below=-10.5, above=-9.5)
+    assert legend(plot.tornado([negative])) == ["lower value", "upper value"]
 
 
 def test_changes_that_go_the_same_way_are_both_seen(sensitivities):

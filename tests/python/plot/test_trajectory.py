@@ -26,6 +26,20 @@ def test_trajectory_over_time_and_phase_portraits(preset):
     assert_allclose(stroke.lines[0].get_ydata(), slope, atol=0.02 * np.ptp(slope))
 
 
+def test_phase_portraits_do_not_depend_on_the_unit_of_time(motion):
+    signals = {name: motion[name] for name in ("stroke_deg", "lift_mn")}
+    names = ["stroke_deg", "lift_mn"]
+    expected = plot.trajectory({"time_s": motion["time_s"], **signals}, names, portrait=names).axes[2:]
+    for column, factor in (("time_ms", 1e3), ("time_us", 1e6), ("t", 1.0)):
+        table = {column: factor * motion["time_s"], **signals}
+        for ax, there in zip(plot.trajectory(table, names, portrait=names, time=column).axes[2:], expected):
+            assert_allclose(ax.lines[0].get_ydata(), there.lines[0].get_ydata())
+    table = {"angle_deg": motion["time_s"], **signals}
+    assert "`deg` is an angle, but `time` is in s" in message(
+        ValueError, plot.trajectory, table, "stroke_deg", time="angle_deg"
+    )
+
+
 def test_signals_with_the_same_unit_share_axes(motion):
     figure = drawn(plot.trajectory(motion, ["stroke_deg", "lift_mn", "drag_mn", "power_mw"]))
     assert [ax.get_ylabel() for ax in figure.axes] == [

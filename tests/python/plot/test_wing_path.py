@@ -62,6 +62,15 @@ def test_the_cycle_is_found_after_a_start_from_rest():
     animation._draw_was_started = True
 
 
+@pytest.mark.parametrize("samples", [6, 3000])
+def test_the_cycle_does_not_depend_on_the_number_of_samples(samples):
+    phase = 2.0 * np.pi * np.arange(2 * samples + 1) / samples
+    table = {"time_s": phase / 754.0, "stroke_deg": 60.0 * np.sin(phase), "pitch_deg": 45.0 * np.cos(phase)}
+    animation = plot.wing_path(table, frames=4)
+    assert animation._scene.cycle.seconds == pytest.approx(2.0 * np.pi / 754.0, rel=1e-9)
+    animation._draw_was_started = True
+
+
 def test_wing_path_mistakes(motion):
     half = motion[:100]
     assert "does not repeat" in message(ValueError, plot.wing_path, half)

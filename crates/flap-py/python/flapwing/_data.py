@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 import warnings
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
@@ -12,8 +11,8 @@ import numpy as np
 
 from . import _labels
 from ._flapwing import quantity, usual_measure
+from ._mistakes import callers_level, reading, refused, unknown
 from ._mistakes import listed as names_listed
-from ._mistakes import reading, refused, unknown
 from ._sweep import read
 from ._table import Table
 
@@ -133,12 +132,13 @@ class Data:
         return found
 
     def one_sample(self, shown: Sequence[str] = ()) -> Data:
-        """Return the designs of a sample. If the sample is combined with an axis that is not in `shown`, return only
-        the rows at the middle value of the axis."""
+        """Return the designs of a grid. If a sample is combined with an axis that is not in `shown`, return only the
+        rows at the middle value of the axis."""
         left = [name for name in self.axes() if self.on_a_grid(name)]
-        if not left or len(left) == len(self.axes()):
+        if len(left) == len(self.axes()):
             return self
-        return self._at_the_middle([name for name in left if name not in shown])
+        drawn = [self.axis(name) for name in shown]
+        return self._at_the_middle([name for name in left if name not in drawn])
 
     def for_picture(self, names: Sequence[str], remedy: str = "") -> Data:
         """Return one row for each combination of values in the columns `names`. All axes that are not in `names` are
@@ -166,7 +166,7 @@ class Data:
             warnings.warn(
                 f"drawn: {name} = {value}, the middle of {len(values)} values; "
                 f"{name}={other} as a keyword chooses another{remedy}",
-                stacklevel=_callers_level(),
+                stacklevel=callers_level(),
             )
             data = data.rows(data[name].astype(values.dtype) == middle)
         return data
@@ -355,14 +355,6 @@ class Shown:
         return str(value) if self.text else _labels.number(float(value) * self.factor)
 
 
-def _callers_level() -> int:
-    """Return the stack level of the user's call, counted from the function that calls `_callers_level`."""
-    level, frame = 1, sys._getframe(1)
-    while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("flapwing."):
-        level, frame = level + 1, frame.f_back
-    return level
-
-
 def _check_lengths(columns: Mapping[str, np.ndarray]) -> None:
     """Raise ValueError if a column is not a list of cells, or the columns differ in length."""
     for name, column in columns.items():
@@ -376,7 +368,9 @@ def _check_lengths(columns: Mapping[str, np.ndarray]) -> None:
 
 
 def _column(values: Any) -> np.ndarray:
-    """Return a column as an array of numbers, flags or words."""
+    """Return a column as an array of numbers, flags or words. Masked cells become NaN."""
+    if isinstance(values, np.ma.MaskedArray) and values.mask.any():
+        values = values.astype(object).filled(np.nan)
     column = np.asarray(values)
     if column.dtype.kind not in "OT":
         return column

@@ -1,9 +1,10 @@
 """Errors of arguments: values of a wrong type, objects that raise an exception when flap reads the object, and unknown
-names."""
+names. Also the stack level of warnings."""
 
 from __future__ import annotations
 
 import difflib
+import sys
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 
@@ -64,3 +65,11 @@ def raised(error: BaseException) -> str:
         first = ""
     told = f"{first:.200}"
     return f"{type(error).__name__}: {told}" if told else type(error).__name__
+
+
+def callers_level() -> int:
+    """Return the stack level of the user's call, counted from the function that calls `callers_level`."""
+    level, frame = 1, sys._getframe(1)
+    while frame.f_back is not None and str(frame.f_globals.get("__name__")).startswith("flapwing."):
+        level, frame = level + 1, frame.f_back
+    return level

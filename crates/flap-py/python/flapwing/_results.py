@@ -156,8 +156,9 @@ class Parameter(_Result):
     name : str
         Name of the parameter in grids, on the command line and as a keyword.
     value : float or str
-        Value of the parameter in the design, in SI units, or the name of the chosen option. `value` is nan if the grid
-        varies the parameter, or if the parameter is not set and is computed by the model.
+        Value of the parameter in the design, in SI units, or the name of the chosen option. For a grid, `value` is the
+        value at the first point. `value` is nan if a search computes the value for each point, such as the resonance.
+        `value` is also nan if the parameter is not set and is computed by the model, and for a model.
     unit : str
         SI unit of the parameter, or ``""`` for pure numbers and options.
     symbol : str

@@ -78,7 +78,8 @@ def sweep(
         varied and derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`,
         `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. The entry ``columns`` of ``[output]`` chooses among the
         columns after `status`. A point without a periodic motion has a row with a status and without measures. If `out`
-        is given, the table reads a column from the file when the column is used for the first time.
+        is given, the table reads the file when a column is used for the first time. If the file then has rows of
+        another sweep, ValueError is raised.
 
     Raises
     ------

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
@@ -10,7 +11,7 @@ import numpy as np
 
 from . import _columns, _flapwing
 from ._columns import Column
-from ._mistakes import raised, unknown
+from ._mistakes import callers_level, raised, unknown
 from ._native import NativeTable
 from ._results import Verdict
 
@@ -111,7 +112,19 @@ class Table:
     @property
     def _columns(self) -> dict[str, Column]:
         if self._held is None:
-            self._held = _columns_of(_flapwing.read(self._path))
+            native = _flapwing.read(self._path)
+            # Another sweep may have replaced the rows since the call that returned this table.
+            # Without a sidecar or a file of points, the origin of the rows in the file is unknown.
+            found = native.get("meta", self.meta)
+            changed = [name for name in ("build", "arithmetic", "solver", "grid") if found[name] != self.meta[name]]
+            if changed:
+                raise ValueError(
+                    f"{self._path} does not have the rows of this table: {', '.join(changed)} in `meta` differ\n"
+                    "read the file with flapwing.read, or repeat the sweep with another `out`"
+                )
+            for text in native["warnings"]:
+                warnings.warn(text, stacklevel=callers_level())
+            self._held = _columns_of(native)
         return self._held
 
     def __getstate__(self) -> dict[str, Any]:

@@ -102,9 +102,9 @@ def sensitivities(
         A measure of the preset's model.
     parameters : mapping or iterable of str, optional
         The parameters to change. In a mapping, each parameter has a relative change, or two values in SI units at which
-        the measure is computed. The default of `parameters` is all parameters whose value is a number other than zero.
-        Parameters that are computed by the model are left out. Parameters that cannot have the changed values, such as
-        whole numbers, are left out too.
+        the measure is computed, in any order. The default of `parameters` is all parameters whose value is a number
+        other than zero. Parameters that are computed by the model are left out. Parameters that cannot have the changed
+        values, such as whole numbers, are left out too.
     change : float
         The relative change of parameters for which `parameters` gives no change.
     **fixed
@@ -183,7 +183,8 @@ def _ranges(
         if isinstance(spread, (tuple, list)):
             if len(spread) != 2:
                 raise ValueError(f"`{name}` requires two values to run, not {len(spread)}")
-            chosen[name] = (float(spread[0]), float(spread[1]))
+            below, above = sorted(map(float, spread))
+            chosen[name] = (below, above)
         elif not 0 < float(spread) < math.inf:
             raise ValueError(f"the change of `{name}` must be more than zero, not {spread}")
     return chosen
@@ -237,7 +238,8 @@ def rank_correlations(
         The parameters to correlate, or any columns of numbers. The default of `parameters` is all parameters of the
         table.
     where, **slices
-        The selection of rows, as for `flapwing.plot.histogram`.
+        The selection of rows, as for `flapwing.plot.histogram`. If a grid combines a sample with an axis that is not
+        selected, only the rows at the middle value of this axis are used.
 
     Returns
     -------
@@ -373,7 +375,8 @@ def describe(
         Percentages from 0 to 100. A percentile between the values of two designs is interpolated linearly, like a
         percentile of ``flap describe``.
     where, **slices
-        The selection of rows, as for `flapwing.plot.histogram`.
+        The selection of rows, as for `flapwing.plot.histogram`. If a grid combines a sample with an axis that is not
+        selected, only the rows at the middle value of this axis are used.
 
     Returns
     -------

@@ -179,7 +179,8 @@ class Comparison:
         A reading decides between two fits if the predictions of the fits differ by many standard errors. The standard
         error contains the noise of the reading and the errors of the fitted parameters. The choice of readings ignores
         differences that disappear if the parameters are estimated again. Before each choice, the two fits are updated
-        with the readings that were chosen earlier. The updates of the fits use derivatives at the estimates.
+        with the readings that were chosen earlier. The updates of the fits use derivatives at the estimates. New
+        readings have the parameters, the branch and the standard errors of the first data set.
 
         Parameters
         ----------

@@ -142,7 +142,7 @@ def deciding_measurements(
             raise ValueError(
                 f"the data have no readings of `{measure}`, so their error is unknown\nchoose among {', '.join(read)}"
             )
-        found = [answers_at(fit._model, given, measure, fit._x) for fit, given in zip(fits, points)]
+        found = [answers_at(fit._model, given, measure, fit._x, 0, fit._sets[0]) for fit, given in zip(fits, points)]
         known = np.logical_and.reduce([np.isfinite(answer.values) & ~answer.gaps for answer in found])
         rows += [(int(row), measure) for row in np.flatnonzero(known)]
         sigmas = [_sigma(side, measure, answer.values) for side, answer in zip(sides, found)]
@@ -170,7 +170,7 @@ def _sigma(side: Side, measure: str, values: Array) -> Array:
     """Return the standard errors of new readings. Each unknown standard error has the most likely value."""
     unknown = are_unknown(side.fit._sets, measure)
     likely = float(np.median(side.criteria.sigma[unknown])) if unknown.any() else 1.0
-    return side.fit._noise(measure, {}).of(values, np.nan_to_num(values), likely)
+    return side.fit._noise(measure, {}, side.fit._sets[0].name).of(values, np.nan_to_num(values), likely)
 
 
 def _decide(

@@ -10,6 +10,7 @@ import numpy as np
 
 from .._types import Array
 from . import _report
+from ._data import DataSet
 from ._model import Model
 from ._points import answers_at, cell
 from ._search import finite_covariance
@@ -59,6 +60,7 @@ def plan(
     measures: Sequence[str],
     x: Array,
     place: int,
+    like: DataSet,
     information: Array,
     target: Array,
     count: int,
@@ -66,7 +68,8 @@ def plan(
     errors_of: Callable[[str, Array], Array],
 ) -> tuple[list[int], list[str], list[float], float]:
     """Return the best next readings in order: rows of `points`, measures, errors of the target after each reading, and
-    the present error of the target. The readings have the parameters of the data set with the index `place`.
+    the present error of the target. The readings have the parameters and the branch of the data set `like`, whose index
+    is `place`.
 
     A reading adds the outer product of the reading's derivatives, divided by the reading's variance, to the information
     matrix. The next reading is the candidate reading after which the variance of the target is smallest. `errors_of`
@@ -74,7 +77,7 @@ def plan(
     """
     rows, names, sensitivities = [], [], []
     for measure in measures:
-        answer = answers_at(model, points, measure, x, place)
+        answer = answers_at(model, points, measure, x, place, like)
         sigma = errors_of(measure, answer.values)
         for row in np.flatnonzero(np.isfinite(answer.values) & ~answer.gaps):
             rows.append(int(row))

@@ -59,6 +59,12 @@ def _of_grid(model: Model, place: str, grid: Grid) -> dict[str, Any]:
         raise ValueError(
             f"{place} is a grid of `{grid.model}`, but the fit is of `{names.model}`\ngive a grid of `{names.model}`"
         )
+    for name in ("device", "preset"):
+        if name in grid.varied:
+            raise ValueError(
+                f"{place} is a grid with several values of `{name}`, but a fit has one design\n"
+                f"give one `{name}`, or columns of parameters"
+            )
     listed = [grid[row] for row in range(len(grid))]
     fixed = [
         name

@@ -111,7 +111,8 @@ class Fit(Solution):
         points : dict, DataFrame or Grid
             Columns of parameters, as in `Readings`. You can leave out parameters that have the same value in all data
             sets. A grid sets the parameters of its axes, its derived parameters, and the parameters in ``[params]``
-            that were not fitted. The remaining parameters of the grid's preset or device are not used.
+            that were not fitted. The remaining parameters of the grid's preset or device are not used, so the grid must
+            have one preset or device.
         measure : str
             The measure to predict. The data need not have readings of the predicted measure.
         data_set : str, optional
@@ -121,7 +122,8 @@ class Fit(Solution):
             point of the prediction.
         reading : bool
             If True, the bands also contain the noise of a reading, so that the bands contain 95 % of new readings. The
-            standard errors of the noise are the standard errors of the data.
+            standard errors of the noise are the standard errors of `data_set`. If `data_set` has no readings of the
+            measure, the standard errors are the standard errors of the first data set with such readings.
 
         Returns
         -------
@@ -132,8 +134,9 @@ class Fit(Solution):
         Raises
         ------
         ValueError
-            Raised if a column, a unit or a measure is unknown, or `reading` is True and the data have no readings of
-            the measure.
+            Raised if a column, a unit or a measure is unknown. Raised if `reading` is True, and the data have no
+            readings of the measure. Raised if `reading` is True, `data_set` is not given, and data sets have different
+            standard errors of the measure.
         """
         noise = self._noise(measure, {}, data_set) if _arguments.flag("reading", reading) else None
         given = self._points("points", points)
@@ -180,9 +183,10 @@ class Fit(Solution):
         repeats : bool
             If True, a measure can be read several times at the same point.
         data_set : str, optional
-            The data set whose parameters and standard errors the new readings have, such as the robot that you measure
-            next. A prediction in `target` has the same parameters. By default, the data set is the data set of the
-            parameter `target`, or the first data set. All motions start from rest.
+            The data set whose parameters, branch and standard errors the new readings have, such as the robot that you
+            measure next. A prediction in `target` has the same parameters and branch. By default, the data set is the
+            data set of the parameter `target`, or the first data set. `predict` describes how a branch is followed.
+            Without a branch, all motions start from rest.
 
         Returns
         -------
@@ -211,7 +215,17 @@ class Fit(Solution):
             return np.hypot(noise, self._discrepancy_of(measure, values))
 
         rows, chosen, errors, now = _plan.plan(
-            self._model, points, wanted, self._x, place, self._information, slopes, count, repeats, errors_of
+            self._model,
+            points,
+            wanted,
+            self._x,
+            place,
+            self._sets[place],
+            self._information,
+            slopes,
+            count,
+            repeats,
+            errors_of,
         )
         return NextMeasurements(
             name, unit, now, [{key: values[row] for key, values in points.items()} for row in rows], chosen, errors
@@ -247,22 +261,25 @@ class Fit(Solution):
 
     def _noise(self, measure: str, sigma: Mapping[str, Any], data_set: str | None = None) -> Noise:
         """Return the standard error of new readings of a measure: a given standard error, or a typical standard error
-        of the data.
+        of the data. Raise ValueError if `data_set` is None, and the data sets have different standard errors.
         """
         self._model.names.check_measure(measure)
         if measure in sigma:
             return parse_noise("sigma", sigma[measure], measure, self._model.names.unit(measure))
-        known = {measure: noise for one in reversed(self._sets) for measure, noise in one.noise.items()}
-        for one in self._sets:
-            if one.name == data_set:
-                known.update(one.noise)
-        if measure not in known:
+        found = {one.name: one.noise[measure] for one in self._sets if measure in one.noise}
+        if not found:
+            known = dict.fromkeys(measure for one in self._sets for measure in one.noise)
             raise ValueError(
                 f"the data have no readings of `{measure}`, so their standard error is unknown\n"
                 f"choose among {', '.join(known)}, or give next_measurements(..., sigma={{{measure!r}: ...}})"
             )
-        noise = known[measure]
-        return noise if np.ndim(noise.size) == 0 else Noise(noise.kind, float(np.median(noise.size)))
+        typical = {name: Noise(noise.kind, float(np.median(noise.size))) for name, noise in found.items()}
+        if data_set is None and len(set(typical.values())) > 1:
+            raise ValueError(
+                f"the data sets have different standard errors of `{measure}`\n"
+                f"choose one with data_set=: {', '.join(typical)}"
+            )
+        return typical.get(data_set or "", next(iter(typical.values())))
 
     def _discrepancy_of(self, measure: str, values: Array) -> Array:
         """Return the standard deviations of the discrepancy of the model at given values of a measure."""
@@ -302,7 +319,7 @@ class Fit(Solution):
             )
         measure = str(target["measure"])
         points = self._points("target", {name: value for name, value in target.items() if name != "measure"})
-        answer = answers_at(self._model, points, measure, self._x, chosen or 0)
+        answer = answers_at(self._model, points, measure, self._x, chosen or 0, self._sets[chosen or 0])
         if len(answer.values) != 1 or not np.isfinite(answer.values[0]) or answer.gaps[0]:
             raise ValueError(
                 f"`{measure}` has no derivatives at this point, or there are several\nchoose another point"

@@ -47,9 +47,10 @@ def histogram(
         `percentiles` is 5 %, 50 % and 95 %, as in ``flap plot``.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
-        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
-        warning shows the middle value that was used.
+        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. The picture
+        has the designs at all values of the axes of a grid. A grid can also combine a sample with an axis. If this axis
+        is not selected, the picture has only the rows at the middle value of the axis. A warning shows the middle value
+        that was used.
     legend : bool or str
         If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
         inside the axes. By default, the legend is above the axes of a new figure. If `ax` is given, the legend is

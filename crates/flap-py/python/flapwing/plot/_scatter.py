@@ -46,9 +46,10 @@ def scatter(
         A colour map of matplotlib for columns of numbers. The default of `cmap` is the colour map of `heatmap`.
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
-        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
-        warning shows the middle value that was used.
+        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. The picture
+        has the designs at all values of the axes of a grid. A grid can also combine a sample with an axis. If this axis
+        is not `x`, `y` or `color`, the picture has only the rows at the middle value of the axis. A warning shows the
+        middle value that was used.
     legend : bool or str
         If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
         inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
@@ -78,8 +79,8 @@ def scatter(
     ('Power, mean (mW)', 'Lift, mean (mN)')
     """
     data = Data.of(table).slice(where, slices)
-    data = data.one_sample([name for name in (x, y) if name is not None])
     named = [name for name in (x, y, color) if name is not None]
+    data = data.one_sample(named)
     x = data.usual("cost", "x", named) if x is None else x
     y = data.usual("benefit", "y", [*named, x]) if y is None else y
     if color is None:

@@ -178,7 +178,7 @@ def _named(each: Sensitivity) -> str:
 
 def _names_of_changes(shown: Sequence[Sensitivity]) -> tuple[str, str]:
     """Return the names of the decrease and the increase of parameters for the legend. If the changes are equal for all
-    parameters, the names contain the sizes of the changes.
+    parameters, and all values are positive, the names contain the sizes of the changes.
     """
     sizes = {
         round(abs(end - each.value) / abs(each.value), 9)
@@ -186,7 +186,7 @@ def _names_of_changes(shown: Sequence[Sensitivity]) -> tuple[str, str]:
         for end in (each.below, each.above)
         if each.value != 0
     }
-    if len(sizes) == 1 and all(each.value != 0 for each in shown):
+    if len(sizes) == 1 and all(each.value > 0 for each in shown):
         percent = _labels.number(100.0 * sizes.pop())
         return f"−{percent} %", f"+{percent} %"
     return "lower value", "upper value"

@@ -11,6 +11,7 @@ from matplotlib.figure import Figure
 
 from .. import _labels
 from .._data import Data, Shown, joined, several
+from .._flapwing import quantity
 from . import _style
 from ._checks import checked
 
@@ -66,7 +67,7 @@ def trajectory(
         The columns with a phase portrait. The default of `portrait` is stroke and pitch, if these columns are among the
         signals. If the table has no column for a rate, the rate is computed from the samples.
     time : str
-        The column of the time.
+        The column of the time. A column without a unit is in seconds.
     label : str or sequence of str, optional
         The name of the motion in the legend, or the names of the motions of a list. By default, the second and later
         motions have numbers as names.
@@ -88,7 +89,7 @@ def trajectory(
     ValueError
         Raised if a column is unknown. Raised if the number of names differs from the number of trajectories. Raised if
         `ax` is given, but the signals have several units, or phase portraits are requested. Raised if the motions that
-        `ax` already contains have a different unit.
+        `ax` already contains have a different unit. Raised if a phase portrait is drawn and `time` has no unit of time.
 
     Examples
     --------
@@ -118,6 +119,8 @@ def trajectory(
             run.numbers(name)
     # One unit of each signal for all designs.
     data = joined(runs)
+    # A time without a unit is in seconds.
+    seconds = quantity("time", f"1 {data.unit(time) or 's'}", "s") if portraits else 1.0
     groups: dict[str, list[str]] = {}
     for name in names:
         groups.setdefault(data.shown(name).unit if designs is None else name, []).append(name)
@@ -171,7 +174,7 @@ def trajectory(
             for design, run in runs.items():
                 colour = colours[name if designs is None else design]
                 angle = shown.factor * run.numbers(name)
-                rate, unit = _rate(run, name, run.numbers(time), shown)
+                rate, unit = _rate(run, name, seconds * run.numbers(time), shown)
                 each.plot(angle, rate, color=colour)
                 each.plot(angle[:1], rate[:1], "o", color=colour, markersize=_style.size(0.7), label="start")
                 _direction(each, angle, rate, colour)

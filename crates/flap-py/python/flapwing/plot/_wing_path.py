@@ -224,11 +224,12 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
     if not (size > 0).any():
         raise ValueError("the wing does not move")
     states = states[:, size > 0] / size[size > 0]
-    error = np.full(n, np.inf)
-    for shift in range(8, n):
+    error = np.zeros(n)
+    for shift in range(1, n):
         overlap = min(shift, n - shift)
         error[shift] = np.abs(states[n - overlap :] - states[n - overlap - shift : n - shift]).max()
-    close = np.flatnonzero(error < 0.01)
+    # Neighbouring samples are also close, so the error must first rise.
+    close = np.flatnonzero(np.logical_or.accumulate(error > 0.25) & (error < 0.01))
     if close.size == 0:
         raise ValueError("the motion does not repeat within the trajectory: give its `frequency`")
     shift = int(close[0])
