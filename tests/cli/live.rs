@@ -236,6 +236,38 @@ fn motion_and_hysteresis_are_those_of_the_commands() {
 }
 
 #[test]
+fn the_motion_of_a_branch_begins_in_the_state_of_its_row() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["jafferis2016"]);
+    let mut design = json!({ "hinge_stiffness": 0.7486e-6, "drive_voltage_pp": 160.0 });
+    let x = json!({ "name": "drive_frequency", "from": 122.0, "to": 130.0, "n": 3 });
+    let curve = live.answer("hysteresis", json!({ "design": design, "x": x }));
+    let place =
+        |name: &str| curve["columns"].as_array().unwrap().iter().position(|column| column == name).unwrap();
+    // At 126 Hz there are two motions.
+    design["drive_frequency"] = json!(126.0);
+    let strokes = ["up", "down"].map(|branch| {
+        let rows = curve["rows"].as_array().unwrap();
+        let is_wanted =
+            |row: &Value| row[place("branch")] == branch && row[place("drive_frequency")] == 126.0;
+        let row = rows.iter().position(is_wanted).unwrap();
+        let begin = &curve["states"][row];
+        let motion = live.answer("motion", json!({ "design": design, "samples": 400, "begin": begin }));
+        let column = motion["columns"].as_array().unwrap().iter().position(|name| name == "stroke_deg");
+        let samples = motion["rows"].as_array().unwrap().iter();
+        let stroke = samples.map(|row| row[column.unwrap()].as_f64().unwrap());
+        let (least, most) =
+            stroke.fold((f64::MAX, f64::MIN), |(least, most), value| (least.min(value), most.max(value)));
+        let of_row = curve["rows"][row][place("stroke_pp_deg")].as_f64().unwrap();
+        assert!(((most - least) / of_row - 1.0).abs() < 1e-3, "{} {of_row}", most - least);
+        of_row
+    });
+    assert!((strokes[0] - strokes[1]).abs() > 20.0, "{strokes:?}");
+    let (status, answer) = live.ask("motion", json!({ "design": design, "samples": 9, "begin": [1.0] }));
+    assert_eq!(status, 422, "{answer}");
+}
+
+#[test]
 fn impossible_values_are_refused_with_their_parameter() {
     let folder = Folder::new();
     let live = Live::start(&folder, &["jafferis2016"]);
