@@ -700,6 +700,13 @@ def test_a_vehicle_has_a_page(other):
     assert {"force_up_mn", "torque_roll_unm", "lift_to_weight"} <= set(shown)
     assert not page.find(".scene").is_displayed() and not page.find("#play").is_displayed()
     assert page.text("#motion-of").startswith("There is no single motion")
+    # A value of [vehicle] cannot be removed: an empty field resets it.
+    mass = page.value("#p-total_mass")
+    page.give("total_mass", "95")
+    page.rest()
+    page.give("total_mass", "")
+    page.rest()
+    assert page.changed() == {} and page.value("#p-total_mass") == mass
 
 
 def test_pictures_of_the_documentation_are_there_and_small():
