@@ -360,6 +360,16 @@ def test_up_and_down_of_a_bistable_design(other, tmp_path):
     assert bands == [{"from": pytest.approx(min(frequencies)), "to": pytest.approx(max(frequencies))}]
     assert 123 < bands[0]["from"] < bands[0]["to"] < 129
     assert page.text("#tip").startswith("Bistable between ")
+    # The motion under the pointer is the motion of its branch.
+    page.script("flapTestHook.showMoment(0.25)")
+    middle = page.chart("chart.scene.lines[0].rows.findIndex((row) => row.x > 126)")
+    captions = set()
+    for line, branch in enumerate(("up", "down")):
+        page.point_at_value(line, middle)
+        page.wait(lambda branch=branch: page.text("#motion-of").endswith(f", {branch}"))
+        page.script("return new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))")
+        captions.add(page.text("#above-caption"))
+    assert len(captions) == 2, captions
     # A measure with the same values on both ways.
     page.choose("measure", "field_max_v_per_um")
     assert page.chart("chart.scene.bands") == bands
@@ -564,7 +574,10 @@ def test_every_field_has_a_name(page):
 
 def test_impossible_values_are_marked_and_the_page_stays(page):
     page.wait_for_motion()
+    page.click("#pin")
+    page.rest()
     rows, lift = page.rows(), page.number("lift_mean_mn")
+    assert page.chart("chart.scene.marker").keys() == {"x", "y"}
     page.give("wing_length", "-3")
     page.wait(lambda: page.find("#p-wing_length").get_attribute("aria-invalid") == "true")
     message = page.problem("wing_length")
@@ -574,6 +587,16 @@ def test_impossible_values_are_marked_and_the_page_stays(page):
         assert "last possible design" in page.text(f"#{part} .old-note")
     assert page.property("body", "innerText").count(message) == 1
     assert page.rows() == rows and page.number("lift_mean_mn") == lift
+    # The numbers of the earlier design are not those of the present one.
+    page.wait(lambda: page.chart("chart.scene.marker") is None)
+    assert set(page.texts("#pin-table tbody tr:not(:first-child) td:last-child")) == {"–"}
+    # The picture keeps the names of its own axes.
+    refused = page.resources()
+    Select(page.find("#x")).select_by_value("wing_area")
+    Select(page.find("#measure")).select_by_value("power_mean_mw")
+    page.wait(lambda: any(name.endswith("/point") for name in page.resources()[len(refused) :]))
+    time.sleep(0.1)
+    assert page.chart("[chart.scene.x.label, chart.scene.y.label]") == ["Drive frequency", "Lift, mean"]
     page.give("wing_length", "3 cats")
     page.wait(lambda: "cats" in page.problem("wing_length"))
     page.give("wing_length", "0.019 m")
@@ -582,6 +605,8 @@ def test_impossible_values_are_marked_and_the_page_stays(page):
     assert page.find("#p-wing_length").get_attribute("aria-invalid") is None
     assert not page.find("#banner").is_displayed()
     assert not page.find("#numbers .old-note").is_displayed()
+    assert page.chart("[chart.scene.x.label, chart.scene.y.label]") == ["Wing area", "Power, mean"]
+    assert page.text("#wing text").startswith("19 mm")
 
 
 def test_an_ambiguous_comma_is_refused_with_words(page):
@@ -675,6 +700,13 @@ def test_a_vehicle_has_a_page(other):
     assert {"force_up_mn", "torque_roll_unm", "lift_to_weight"} <= set(shown)
     assert not page.find(".scene").is_displayed() and not page.find("#play").is_displayed()
     assert page.text("#motion-of").startswith("There is no single motion")
+    # A value of [vehicle] cannot be removed: an empty field resets it.
+    mass = page.value("#p-total_mass")
+    page.give("total_mass", "95")
+    page.rest()
+    page.give("total_mass", "")
+    page.rest()
+    assert page.changed() == {} and page.value("#p-total_mass") == mass
 
 
 def test_pictures_of_the_documentation_are_there_and_small():

@@ -236,6 +236,92 @@ fn motion_and_hysteresis_are_those_of_the_commands() {
 }
 
 #[test]
+fn the_motion_of_a_branch_begins_in_the_state_of_its_row() {
+    let folder = Folder::new();
+    let live = Live::start(&folder, &["jafferis2016"]);
+    let mut design = json!({ "hinge_stiffness": 0.7486e-6, "drive_voltage_pp": 160.0 });
+    let x = json!({ "name": "drive_frequency", "from": 122.0, "to": 130.0, "n": 3 });
+    let curve = live.answer("hysteresis", json!({ "design": design, "x": x }));
+    let place =
+        |name: &str| curve["columns"].as_array().unwrap().iter().position(|column| column == name).unwrap();
+    // At 126 Hz there are two motions.
+    design["drive_frequency"] = json!(126.0);
+    let strokes = ["up", "down"].map(|branch| {
+        let rows = curve["rows"].as_array().unwrap();
+        let is_wanted =
+            |row: &Value| row[place("branch")] == branch && row[place("drive_frequency")] == 126.0;
+        let row = rows.iter().position(is_wanted).unwrap();
+        let begin = &curve["states"][row];
+        let motion = live.answer("motion", json!({ "design": design, "samples": 400, "begin": begin }));
+        let column = motion["columns"].as_array().unwrap().iter().position(|name| name == "stroke_deg");
+        let samples = motion["rows"].as_array().unwrap().iter();
+        let stroke = samples.map(|row| row[column.unwrap()].as_f64().unwrap());
+        let (least, most) =
+            stroke.fold((f64::MAX, f64::MIN), |(least, most), value| (least.min(value), most.max(value)));
+        let of_row = curve["rows"][row][place("stroke_pp_deg")].as_f64().unwrap();
+        assert!(((most - least) / of_row - 1.0).abs() < 1e-3, "{} {of_row}", most - least);
+        of_row
+    });
+    assert!((strokes[0] - strokes[1]).abs() > 20.0, "{strokes:?}");
+    let (status, answer) = live.ask("motion", json!({ "design": design, "samples": 9, "begin": [1.0] }));
+    assert_eq!(status, 422, "{answer}");
+}
+
+/// A vehicle of two wings, one with a device.
+const VEHICLE: &str = r#"preset = "jafferis2016"
+[vehicle]
+total_mass = "90 mg"
+[[vehicle.wings]]
+name = "left"
+position = ["0 mm", "4 mm", "0 mm"]
+device = "bee.toml"
+[[vehicle.wings]]
+name = "right"
+position = ["0 mm", "-4 mm", "0 mm"]
+mirrored = true
+"#;
+const BEE: &str = "preset = \"jafferis2016\"\n[params]\nhinge_stiffness = \"2.2 uN*m/rad\"\n";
+
+#[test]
+fn devices_of_wings_are_those_that_were_opened() {
+    let folder = Folder::new();
+    fs::create_dir(folder.path("designs")).unwrap();
+    fs::write(folder.path("designs/bee.toml"), BEE).unwrap();
+    fs::write(folder.path("designs/vehicle.toml"), VEHICLE).unwrap();
+    let live = Live::start(&folder, &["designs/vehicle.toml"]);
+    fs::write(folder.path("designs/bee.toml"), BEE.replace("2.2", "1.8")).unwrap();
+    let point = live.answer("point", json!({ "design": { "drive_voltage_pp": "150 V" } }));
+    assert_eq!(point["values"]["left_hinge_stiffness"], 2.2e-6);
+    assert_eq!(point["values"]["drive_voltage_pp"], 150.0);
+    assert_eq!(point["values"]["drive_shape"], "sine");
+}
+
+#[test]
+fn a_formula_with_a_value_of_the_device_is_refused() {
+    let folder = Folder::new();
+    fs::write(folder.path("bee.toml"), BEE).unwrap();
+    let measure = "[measure]\nsoft = \"hinge_stiffness / device.hinge_stiffness\"\n";
+    let vehicle = VEHICLE.replace("preset = \"jafferis2016\"", "device = \"bee.toml\"");
+    for grid in [format!("device = \"bee.toml\"\n{measure}"), vehicle + measure] {
+        fs::write(folder.path("grid.toml"), grid).unwrap();
+        folder.ends(0, "check grid.toml");
+        folder.refuses("live grid.toml --no-open", "no values of the device");
+    }
+}
+
+#[test]
+fn a_value_of_the_preset_or_the_vehicle_cannot_be_removed() {
+    let folder = Folder::new();
+    fs::write(folder.path("bee.toml"), BEE).unwrap();
+    fs::write(folder.path("vehicle.toml"), VEHICLE).unwrap();
+    let live = Live::start(&folder, &["vehicle.toml"]);
+    let (status, answer) = live.ask("point", json!({ "design": { "total_mass": null } }));
+    assert_eq!((status, answer["parameter"].as_str()), (422, Some("total_mass")), "{answer}");
+    let unset = live.answer("point", json!({ "design": { "right_hinge_stiffness": null } }));
+    assert_eq!(unset["values"]["right_hinge_stiffness"], Value::Null);
+}
+
+#[test]
 fn impossible_values_are_refused_with_their_parameter() {
     let folder = Folder::new();
     let live = Live::start(&folder, &["jafferis2016"]);

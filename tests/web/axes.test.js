@@ -63,6 +63,12 @@ test("labels have as many digits as tell neighbours apart", () => {
   assert.deepEqual(tickLabels([1e8, 5e8]), ["10⁸", "5·10⁸"]);
 });
 
+test("labels of ticks are not rounded to other values", () => {
+  assert.deepEqual(tickLabels([1000, 1002.5, 1005]), ["1000", "1002.5", "1005"]);
+  assert.deepEqual(tickLabels([12350, 12375, 12400]), ["12350", "12375", "12400"]);
+  assert.deepEqual(tickLabels([1.235e8, 1.2375e8]), ["1.235·10⁸", "1.2375·10⁸"]);
+});
+
 test("ranges have a margin, and begin at zero if they come near it", () => {
   assert.deepEqual(axisRange(0, 10, false, 0), [0, 10]);
   assert.deepEqual(axisRange(1, 11, false, 0.1), [0, 12]);

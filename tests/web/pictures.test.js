@@ -7,7 +7,7 @@ import { svgPicture } from "../../crates/flap-live/web/chart/svg.js";
 import { dragSign, pitchSign, valuesAt } from "../../crates/flap-live/web/live/kinematics.js";
 import { sliderPlace, sliderValue } from "../../crates/flap-live/web/live/slider.js";
 import { symbolParts } from "../../crates/flap-live/web/live/symbol.js";
-import { wingOutline } from "../../crates/flap-live/web/live/wing-outline.js";
+import { wingOutline, wingShape } from "../../crates/flap-live/web/live/wing-outline.js";
 import { lineColour, packedColour, unpackedColour, viridis } from "../../crates/flap-live/web/shared/colours.js";
 import { differenceText, labelWithUnit, roundedNumber, shortNumber } from "../../crates/flap-live/web/shared/format.js";
 import { STATUS_MARKS, statusEntries, statusMark } from "../../crates/flap-live/web/shared/status.js";
@@ -210,6 +210,18 @@ test("signals between two samples, and the signs of pitch and drag", () => {
   assert.equal(pitchSign({ ...signals, pitch_deg: [-5, -5, 5] }), -1);
   assert.equal(dragSign(signals), -1);
   assert.equal(dragSign({ ...signals, drag_mn: [-1, -1, 1] }), 1);
+});
+
+test("the wing that is drawn has the mean chord of the design", () => {
+  const mean = (values) => {
+    const { chord } = wingShape(values);
+    const shares = Array.from({ length: 10000 }, (_, i) => (i + 0.5) / 10000);
+    return shares.reduce((sum, share) => sum + chord(share), 0) / shares.length;
+  };
+  assert.ok(Math.abs(mean({ wing_length: 0.02, mean_chord: 0.004 }) / 0.004 - 1) < 1e-5);
+  assert.ok(Math.abs(mean({ wing_length: 0.02, wing_area: 6e-5 }) / 0.003 - 1) < 1e-5);
+  assert.ok(Math.abs(mean({ wing_length: 0.02, root_chord: 0.004, chord_term_0: 1, chord_term_1: -1 }) - 0.002) < 1e-9);
+  assert.equal(wingShape({ wing_area: 6e-5 }), null);
 });
 
 test("the outline of a wing begins and ends at its root", () => {

@@ -15,7 +15,14 @@ const row = (frequency, voltage, branch, lift, bistable = null, status = "period
   bistable,
   lift,
 ];
-const axes = { x: "drive_frequency", factor: 1e-3, y: "lift", by: "voltage", nameOf: (value) => `${value} V` };
+const axes = {
+  x: "drive_frequency",
+  step: 1000,
+  factor: 1e-3,
+  y: "lift",
+  by: "voltage",
+  nameOf: (value) => `${value} V`,
+};
 
 test("each value of the lines' parameter has a line, in the unit that is shown", () => {
   const rows = [row(1000, 50, null, 1), row(1000, 60, null, 3), row(2000, 50, null, 2), row(2000, 60, null, "inf")];
@@ -35,7 +42,8 @@ test("each value of the lines' parameter has a line, in the unit that is shown",
       [1, 2, true],
     ],
   );
-  assert.deepEqual(lines[1].rows[0], { status: "periodic", stable: true, bistable: false, x: 1000, by: 60 });
+  const fixed = { status: "periodic", stable: true, bistable: false, begin: null };
+  assert.deepEqual(lines[1].rows[0], { ...fixed, x: 1000, by: 60 });
   assert.deepEqual(gaps, []);
 });
 
@@ -65,6 +73,26 @@ test("rows that are not periodic are gaps with their status", () => {
       ["invalid", 1],
     ],
   );
+});
+
+test("a line has a gap where a condition excludes points", () => {
+  const rows = [row(1000, 50, null, 1), row(2000, 50, null, 2), row(5000, 50, null, 5), row(6000, 50, null, 6)];
+  const { lines, gaps } = responseLines({ columns, rows }, axes);
+  assert.deepEqual(lines[0].x, [1, 2, 3.5, 5, 6]);
+  assert.deepEqual(lines[0].y, [1, 2, null, 5, 6]);
+  assert.equal(lines[0].rows[3].x, 5000);
+  assert.deepEqual(gaps, []);
+});
+
+test("rows up and down have the states at the beginning of their motions", () => {
+  const rows = [row(1000, 50, "up", 1), row(2000, 50, "up", 2), row(2000, 50, "down", 4), row(1000, 50, "down", 3)];
+  const states = [[1], [2], [4], [3]];
+  const { lines } = responseLines({ columns, rows, states }, { ...axes, by: "branch", nameOf: String });
+  const begins = lines.map((line) => line.rows.map(({ begin }) => begin[0]));
+  assert.deepEqual(begins, [
+    [1, 2],
+    [3, 4],
+  ]);
 });
 
 /** Rows up and down. `marks` are the verdicts of the server, from the lowest frequency to the highest. */

@@ -3,7 +3,14 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { cellsOf, edgesAround } from "../../crates/flap-live/web/results/cells.js";
-import { cellText, csvText, decodedColumn, extentOf, levelsOf } from "../../crates/flap-live/web/results/columns.js";
+import {
+  boundAtCells,
+  cellText,
+  csvText,
+  decodedColumn,
+  extentOf,
+  levelsOf,
+} from "../../crates/flap-live/web/results/columns.js";
 import { paretoFront } from "../../crates/flap-live/web/results/front.js";
 
 const base64 = (array) => Buffer.from(array.buffer).toString("base64");
@@ -45,6 +52,17 @@ test("CSV has the digits and units of the file", () => {
     column("u8", Uint8Array.of(0, 9), { words: ["x,y"] }),
   ];
   assert.equal(csvText(columns, [1, 0]), 'a,"b""c",a\n,1,\n0.1,0.30000000000000004,"x,y"\n');
+});
+
+test("a typed bound includes the cells that equal it except for rounding", () => {
+  const cells = column("f64", Float64Array.of(0.3, 0.1 + 0.2, 0.4, Number.NaN));
+  // 0.3 / 1000 * 1000 may differ from 0.3 in the last digit.
+  assert.equal(boundAtCells(cells, "low", 0.3 + 5e-17), 0.3);
+  assert.equal(boundAtCells(cells, "high", 0.3), 0.1 + 0.2);
+  assert.equal(boundAtCells(cells, "low", 0.3001), 0.3001);
+  const single = column("f32", Float32Array.of(0.1, 5));
+  assert.equal(boundAtCells(single, "high", 0.1), Math.fround(0.1));
+  assert.ok(Math.fround(0.1) > 0.1, "without the cell, the filter would exclude the row");
 });
 
 test("levels rise and have no missing values", () => {

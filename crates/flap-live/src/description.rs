@@ -8,7 +8,7 @@ use flap_sweep::plan::Plan;
 use flap_sweep::table::labels::{self, Direction, Scale};
 use flap_sweep::table::layout::{self, Layout};
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use crate::opened::Opened;
 
@@ -185,6 +185,13 @@ fn shown(parameter: &Parameter, value: f64) -> Value {
         Some(option) => option.into(),
         None => value.into(),
     }
+}
+
+/// Returns the values of a design for the page, by parameter.
+pub(crate) fn values(parameters: &[Parameter], values: &[f64]) -> Map<String, Value> {
+    let shown =
+        |(parameter, value): (&Parameter, &f64)| (parameter.name.to_owned(), shown(parameter, *value));
+    parameters.iter().zip(values).map(shown).collect()
 }
 
 /// The range of a slider: a neighbourhood of the value, within the allowed range.

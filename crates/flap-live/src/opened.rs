@@ -1,6 +1,7 @@
 //! The design that was opened, and grid files for the contents of the page.
 
 use std::fmt::Write as _;
+use std::path::Path;
 use std::sync::OnceLock;
 
 use flap_core::num::Backend;
@@ -44,7 +45,7 @@ impl Opened {
     /// The mistakes of the opened file if its points are left out.
     pub(crate) fn new(plan: Plan, models: &[&'static dyn Simulator]) -> Result<Opened, Mistakes> {
         let head = head(&plan);
-        let published = grid::parse(NAME, &head, models)?;
+        let published = parsed(&plan, &head, models)?;
         let mut values = plan.point(0).values;
         for (value, (published, given)) in values.iter_mut().zip(published.base().iter().zip(plan.base())) {
             // The page has one drive frequency, without a search for the resonance of each design.
@@ -90,7 +91,7 @@ impl Opened {
     /// Returns a grid file for the design. `x` and `by` become axes of the grid.
     ///
     /// # Errors
-    /// [`Refused::Impossible`] if the plan would have too many rows.
+    /// [`Refused::Impossible`] if the plan would have too many rows, or a value cannot be removed.
     pub(crate) fn grid(
         &self,
         design: &Design,
@@ -107,6 +108,7 @@ impl Opened {
                 format!("`{}` must have two different ends, but both are {}", x.name, number(&x.from));
             return Err(Refused::Impossible { error, help: None, parameter: Some(x.name.clone()) });
         }
+        self.check_cleared(design)?;
         let axes = [by.map(|by| by.name.as_str()), x.map(|x| x.name.as_str())];
         let mut page = self.head.clone();
         page += "\n[params]\n";
@@ -124,6 +126,21 @@ impl Opened {
         }
         self.write_correlations(&mut page, design, &axes);
         Ok(page)
+    }
+
+    /// Returns an error if the design removes a value that the preset or `[vehicle]` sets.
+    fn check_cleared(&self, design: &Design) -> Result<(), Refused> {
+        let is_set = |name: &str| {
+            let index = Parameter::index(self.plan.parameters(), name);
+            index.is_some_and(|index| !self.published()[index].is_nan())
+        };
+        let cleared = design.iter().filter(|(_, value)| value.is_none()).map(|(name, _)| name);
+        let Some(name) = cleared.into_iter().find(|name| is_set(name)) else { return Ok(()) };
+        Err(Refused::Impossible {
+            error: format!("`{name}` cannot be empty: the preset or [vehicle] sets it"),
+            help: Some("type a value, or reset the parameter".to_owned()),
+            parameter: Some(name.clone()),
+        })
     }
 
     /// Returns true if a parameter has the value from the opened file: the design, the axes and the formulas do not
@@ -186,7 +203,7 @@ impl Opened {
     /// # Errors
     /// [`Refused::Impossible`] with the first mistake.
     pub(crate) fn plan_of(&self, grid: &str) -> Result<Plan, Refused> {
-        grid::parse(NAME, grid, &self.models).map_err(|mistakes| match mistakes.first() {
+        parsed(&self.plan, grid, &self.models).map_err(|mistakes| match mistakes.first() {
             Some(first) => refused(first, self.plan.parameters()),
             None => Refused::Fault("a grid was refused without a reason".to_owned()),
         })
@@ -199,6 +216,21 @@ impl Opened {
     pub(crate) fn design(&self, design: &Design) -> Result<Plan, Refused> {
         self.plan_of(&self.grid(design, None, None)?)
     }
+}
+
+/// Returns the plan of a grid file of the page. Devices of wings have the contents that they had when `opened` was read.
+fn parsed(opened: &Plan, grid: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
+    // Paths of devices are relative to the folder of the opened file.
+    let name = Path::new(&opened.source().name).with_file_name(NAME);
+    grid::parse_recorded(&name.display().to_string(), grid, opened.devices(), models)
+}
+
+/// Returns true if a formula of the file uses a value of the file's device. The grids of the page start from a preset.
+pub(crate) fn uses_device(plan: &Plan) -> bool {
+    let document: DocumentMut = plan.source().text.parse().unwrap_or_default();
+    let sections = KEPT.iter().filter_map(|name| document.get(name)?.as_table_like());
+    let mut formulas = sections.flat_map(|section| section.iter()).filter_map(|(_, item)| item.as_str());
+    document.contains_key("device") && formulas.any(|formula| formula.contains("device."))
 }
 
 /// Returns the beginning of every grid file of the page: the preset, the kept sections and the solver settings.

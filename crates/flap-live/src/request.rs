@@ -68,6 +68,9 @@ pub(crate) struct MotionRequest {
     #[serde(default)]
     pub(crate) design: Design,
     pub(crate) samples: u32,
+    /// The state at the beginning of the period, from the answer to a [`HysteresisRequest`]. Without this state, the
+    /// motion settles from rest.
+    pub(crate) begin: Option<Vec<f64>>,
 }
 
 /// A request for the response of a design to a parameter that rises and falls.

@@ -177,6 +177,8 @@ export interface Parameter {
   kind: "number" | "choice" | "following" | "derived";
   options: string[] | null;
   value: number | string | null;
+  /** The value of the preset or of [vehicle]. */
+  published: number | string | null;
   low: number;
   high: number;
   log: boolean;
@@ -241,6 +243,8 @@ export interface RowTable {
 export interface ResponseAnswer extends RowTable {
   kind: "family" | "hysteresis";
   request: { design: Design; x: AxisRange & { n: number }; by: LineValues | null };
+  /** The state at the beginning of each row's motion, for responses up and down. */
+  states?: number[][];
 }
 
 /** The row behind a value of a response line. */
@@ -251,6 +255,8 @@ export interface ResponseRow {
   /** The parameter along x, in SI units. */
   x: number;
   by: number | string | null;
+  /** The state at the beginning of the motion; null if the motion settles from rest. */
+  begin: number[] | null;
 }
 
 /** A line of a response, before it has a colour. */
@@ -268,6 +274,8 @@ export interface ResponseGap extends Omit<Gap, "shape" | "color"> {}
 export interface PointAnswer {
   columns: string[];
   row: any[];
+  /** The value of each parameter: SI units, or an option. */
+  values: Design;
   published: any[];
   reason: string | null;
   warnings: string[];

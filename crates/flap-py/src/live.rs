@@ -4,7 +4,7 @@ use std::sync::{Mutex, PoisonError};
 
 use flap_core::simulate;
 use flap_live::{LiveOptions, Server, StartError};
-use pyo3::exceptions::{PyOSError, PyRuntimeError};
+use pyo3::exceptions::{PyOSError, PyRuntimeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -33,6 +33,9 @@ impl LiveServer {
         let server = started.map_err(|reason| match reason {
             StartError::Port(..) => PyOSError::new_err(reason.to_string()),
             StartError::Design(mistakes) => error::grid(py, &mistakes),
+            StartError::DeviceValue => {
+                PyValueError::new_err(format!("{reason}\nwrite numbers in the formula"))
+            }
             StartError::System(_) => PyRuntimeError::new_err(reason.to_string()),
         })?;
         Ok(LiveServer { server: Mutex::new(server) })

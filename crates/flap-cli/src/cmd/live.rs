@@ -31,6 +31,7 @@ pub(crate) fn run(args: &LiveArgs) -> Result<Exit, Failure> {
     let mut server = started.map_err(|error| match error {
         StartError::Design(mistakes) => Failure::Grid(mistakes),
         StartError::Port(..) => Failure::usage(error.to_string()).help("choose another port, or omit --port"),
+        StartError::DeviceValue => Failure::usage(error.to_string()).help("write numbers in the formula"),
         StartError::System(_) => Failure::system(error.to_string()),
     })?;
     console::results(&format!("{}\n", server.address()))?;

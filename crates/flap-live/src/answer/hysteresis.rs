@@ -2,15 +2,30 @@
 
 use flap_core::parameter::Parameter;
 use flap_sweep::plan::Along;
-use flap_sweep::run::{RowWriter, Summary};
+use flap_sweep::run::{Outcome, RowWriter, Summary};
 use flap_sweep::study::response::Responses;
+use flap_sweep::table::layout::Layout;
+
+use serde::Serialize;
 
 use super::context::{AnswerContext, failed};
 use crate::request::{HysteresisRequest, MOST_ROWS, Refused};
 use crate::rows::Rows;
 
+/// The rows of a response, and the state at the beginning of the motion of each row. A row without a motion has no
+/// state.
+#[derive(Serialize)]
+pub(crate) struct Response {
+    #[serde(flatten)]
+    rows: Rows,
+    states: Vec<Vec<f64>>,
+}
+
 /// Computes the rows of `flap respond`: the rising branch, then the falling branch.
-pub(crate) fn hysteresis(context: &AnswerContext<'_>, request: &HysteresisRequest) -> Result<Rows, Refused> {
+pub(crate) fn hysteresis(
+    context: &AnswerContext<'_>,
+    request: &HysteresisRequest,
+) -> Result<Response, Refused> {
     let HysteresisRequest { design, x } = request;
     if x.n < 2 || 2 * x.n as usize > MOST_ROWS {
         let error = format!("a response has 2 to {} values, not {}", MOST_ROWS / 2, x.n);
@@ -27,15 +42,19 @@ pub(crate) fn hysteresis(context: &AnswerContext<'_>, request: &HysteresisReques
     let plan = plan.following(along);
     let responses =
         Responses::of(&plan).ok_or_else(|| Refused::Fault("no parameter is followed".to_owned()))?;
-    let mut rows = Rows::of(&plan);
+    let layout = Layout::of(&plan);
+    let (mut rows, mut states) = (Rows::of(&plan), Vec::new());
     let mut output =
         RowWriter::begin(&plan, Summary::default(), &mut rows).map_err(|error| failed(&error))?;
     let mut run = responses.curves(&context.options, 0);
     while let Some(batch) = run.next_batch().map_err(|error| failed(&error))? {
         context.check_current()?;
-        for curve in &batch {
-            output.write_curve(curve).map_err(|error| failed(&error))?;
+        for outcome in &batch {
+            output.write_curve(outcome).map_err(|error| failed(&error))?;
+            if let Outcome::Ran(curve) = outcome {
+                states.extend(curve.rows(&layout).map(|(_, row)| row.state.clone()));
+            }
         }
     }
-    Ok(rows)
+    Ok(Response { rows, states })
 }

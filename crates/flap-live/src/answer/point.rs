@@ -9,17 +9,19 @@ use flap_sweep::study::deviation::{self, Deviation};
 use flap_sweep::study::strongest;
 use flap_sweep::table::layout::Layout;
 use serde::Serialize;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 use super::context::AnswerContext;
 use crate::request::{PointRequest, Refused};
-use crate::rows;
+use crate::{description, rows};
 
 /// The computed numbers of a design.
 #[derive(Serialize)]
 pub(crate) struct Numbers {
     columns: Vec<String>,
     row: Vec<Value>,
+    /// The value of each parameter.
+    values: Map<String, Value>,
     /// The row of the published design.
     published: Vec<Value>,
     /// The reason why the parameters are impossible, or why a sweep excludes the design.
@@ -91,6 +93,7 @@ pub(crate) fn point(context: &AnswerContext<'_>, request: &PointRequest) -> Resu
     Ok(Numbers {
         warnings: changed.filter_map(Deviation::warning).collect(),
         columns: layout.names(),
+        values: description::values(plan.parameters(), &values),
         reason: row.reason.clone().or(reason),
         modes: modes(&plan, &values),
         published_modes: modes(&plan, &published),

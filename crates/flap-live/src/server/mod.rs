@@ -19,7 +19,7 @@ use tokio::net::TcpListener as Listener;
 use tokio::sync::oneshot::{self, Sender};
 
 use crate::guard::Guard;
-use crate::opened::Opened;
+use crate::opened::{self, Opened};
 use state::ServerState;
 
 /// Number of threads that wait for requests or compute answers. Additional worker threads compute rows.
@@ -46,6 +46,9 @@ pub enum StartError {
     /// The opened file has mistakes if its points are left out.
     #[error("the design is not valid without its points")]
     Design(Mistakes),
+    /// A formula uses a value of the device, but the designs of the page start from the preset.
+    #[error("the live page has no values of the device, which a formula of the file uses as `device.NAME`")]
+    DeviceValue,
 }
 
 /// A running server. The server stops when this value is dropped.
@@ -72,13 +75,17 @@ impl Server {
     /// Starts a server of the live page for the first design of `plan`. `models` contains the presets.
     ///
     /// # Errors
-    /// [`StartError`] if the port is in use, the file has mistakes without its points, or the system provides no threads.
+    /// [`StartError`] if the port is in use, the file has mistakes without its points or uses values of its device, or
+    /// the system provides no threads.
     pub fn start(
         plan: Plan,
         models: &[&'static dyn Simulator],
         options: &LiveOptions,
     ) -> Result<Server, StartError> {
         let port = options.port;
+        if opened::uses_device(&plan) {
+            return Err(StartError::DeviceValue);
+        }
         let opened = Opened::new(plan, models).map_err(StartError::Design)?;
         let listener = TcpListener::bind((Ipv4Addr::LOCALHOST, port));
         let listener = listener.map_err(|error| StartError::Port(port, error))?;

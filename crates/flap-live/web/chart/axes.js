@@ -70,11 +70,16 @@ const tickLabel = (value, precision, hasPower) => {
 /** Most letters of a label without a power of ten. */
 const MOST_LETTERS = 7;
 
-/** Labels of ticks: four digits, or more if neighbours are equal with four. Long numbers have powers of ten. */
+/**
+ * Labels of ticks: four digits, or more if four digits change a value by more than a thousandth of the distance of two
+ * ticks. Long numbers have powers of ten.
+ */
 export const tickLabels = (/** @type {number[]} */ values) => {
   const isLong = values.some((value) => tickLabel(Math.abs(value), 4, false).length > MOST_LETTERS);
-  for (let precision = 4; ; precision++) {
-    const labels = values.map((value) => tickLabel(value, precision, isLong));
-    if (precision === 12 || new Set(labels).size === values.length) return labels;
-  }
+  const distance = Math.min(...values.slice(1).map((value, i) => Math.abs(value - values[i])));
+  const isExact = (/** @type {number} */ value, /** @type {number} */ precision) =>
+    Math.abs(Number(value.toPrecision(precision)) - value) <= 1e-3 * distance;
+  let precision = 4;
+  while (precision < 12 && !values.every((value) => isExact(value, precision))) precision++;
+  return values.map((value) => tickLabel(value, precision, isLong));
 };

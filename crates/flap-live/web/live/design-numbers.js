@@ -44,25 +44,26 @@ export const designNumbers = {
 export const answerValue = (/** @type {PointAnswer | null | undefined} */ answer, /** @type {string} */ name) =>
   answer?.row[answer.columns.indexOf(name)];
 
-/** A value of the design; undefined before it has been computed. */
-export const designValue = (/** @type {string} */ name) => answerValue(designNumbers.answer, name);
-
 const designText = () => JSON.stringify([state.design, state.measure]);
 
 /** True if the numbers of the present design are shown. */
 export const areNumbersShown = () => designNumbers.design === designText();
 
+/** The answer for the present design; null before it has been computed. */
+export const presentAnswer = () => (areNumbersShown() ? designNumbers.answer : null);
+
 /** Computes and shows the numbers and the derivatives of the design. */
 export const requestNumbers = async () => {
   const design = designText();
+  const { measure } = state;
   try {
-    const answer = await request("point", { design: { ...state.design }, gradient: state.measure });
+    const answer = await request("point", { design: { ...state.design }, gradient: measure });
     if (!answer) return;
     Object.assign(designNumbers, { answer, design });
     setStaleNote("numbers", "");
     setMessage("far", answer.warnings.join(" · "));
     showNumbers(answer);
-    showDerivatives(answer);
+    showDerivatives(answer, measure);
   } catch (error) {
     if (!(error instanceof ServerError)) throw error;
     if (error.status === 0) return;
@@ -118,9 +119,14 @@ const showNumbers = (/** @type {PointAnswer} */ answer) => {
   byId("all-numbers").replaceChildren(...all.map(measureRow));
 };
 
-/** Shows bars of the derivatives, the largest first. A click on a bar shows its parameter. */
-const showDerivatives = (/** @type {PointAnswer} */ { gradient, gradient_reason: reason }) => {
-  const { label, unit } = measureNamed(state.measure);
+/**
+ * Shows bars of the derivatives of a measure, the largest first. A click on a bar shows its parameter.
+ *
+ * @param {PointAnswer} answer
+ * @param {string} measure
+ */
+const showDerivatives = ({ gradient, gradient_reason: reason }, measure) => {
+  const { label, unit } = measureNamed(measure);
   byId("gradient-title").textContent = `Effects on ${label.toLowerCase()} (${unit ? `${unit} ` : ""}per %)`;
   if (!gradient) {
     byId("gradient").textContent = reason ?? "";

@@ -8,14 +8,14 @@ import { isFiniteNumber, roundedNumber, shortNumber } from "../shared/format.js"
 import { statusEntries, statusMark } from "../shared/status.js";
 import { isDark } from "../shared/theme.js";
 import { setMessage } from "./banner.js";
-import { designValue } from "./design-numbers.js";
+import { answerValue, presentAnswer } from "./design-numbers.js";
 import { measureNamed } from "./opened.js";
 import { isFieldError, panelEvents, showProblems } from "./panel.js";
 import { bistableBands, responseLines, statusCounts } from "./response.js";
 import { request, ServerError } from "./server.js";
-import { lineParameter, state, valueIn, valueText, xParameter } from "./state.js";
+import { lineParameter, state, valueText, xParameter } from "./state.js";
 
-/** @import { ChartOptions, Gap, Line, Mark, ResponseAnswer, ResponseGap, ResponseLine } from "../types.d.ts" */
+/** @import { ChartOptions, Gap, Line, Mark, Measure, Parameter, ResponseAnswer, ResponseGap, ResponseLine } from "../types.d.ts" */
 
 /** Values of x of a fine family, and the smallest and largest number of a coarse one. */
 export const FINE = 81;
@@ -36,6 +36,8 @@ export const family = {
   /** True if the lines belong to a design that rests. */
   isFine: false,
   answer: /** @type {ResponseAnswer | null} */ (null),
+  /** The parameter along x, the measure and the lines' parameter of the lines that are drawn, set by `drawAnswer`. */
+  axes: /** @type {{ x: Parameter, measure: Measure, by: Parameter | null }} */ (/** @type {any} */ (null)),
   lines: /** @type {ResponseLine[]} */ ([]),
   /** Lines of the fine family before the last one. */
   earlier: /** @type {ResponseLine[]} */ ([]),
@@ -128,7 +130,7 @@ export const requestFine = async () => {
 
 /** Draws the last rows again, after a change of only the axes. */
 export const redrawFamily = () => {
-  if (family.answer) drawAnswer(family.answer, family.isFine);
+  if (family.answer && isWanted(family.answer)) drawAnswer(family.answer, family.isFine);
 };
 
 const drawAnswer = (/** @type {ResponseAnswer} */ answer, /** @type {boolean} */ isFine) => {
@@ -136,19 +138,22 @@ const drawAnswer = (/** @type {ResponseAnswer} */ answer, /** @type {boolean} */
   const by = lineParameter();
   const nameOf = (/** @type {any} */ value) => (by ? valueText(by, value) : value);
   const key = state.updown ? "branch" : (by?.name ?? null);
-  const axes = { x: x.name, factor: x.factor, y: state.measure, by: key, nameOf };
+  const { n, ...along } = answer.request.x;
+  const step = Math.abs(along.to - along.from) / (n - 1);
+  const axes = { x: x.name, step, factor: x.factor, y: state.measure, by: key, nameOf };
   const { lines, gaps } = responseLines(answer, axes);
   for (const line of lines) if (state.updown && line.key === "down") line.dash = [7, 4];
   const view = viewText();
   let ghosts = family.fine?.view === view ? family.fine.lines : [];
   if (isFine) {
-    const { n: _, ...along } = answer.request.x;
     const design = JSON.stringify([answer.request.design, along, state.by, state.measure, state.updown]);
     if (family.fine && family.fine.design !== design) family.earlier = ghosts;
     ghosts = family.earlier;
     family.fine = { lines, design, view };
   }
-  Object.assign(family, { answer, isFine, lines, gaps, ghosts, bands: state.updown ? bistableBands(lines) : [] });
+  const bands = state.updown ? bistableBands(lines) : [];
+  family.axes = { x, measure: measureNamed(state.measure), by };
+  Object.assign(family, { answer, isFine, lines, gaps, ghosts, bands });
   paintFamily();
   showReadout(family.chart.renewMark());
 };
@@ -156,8 +161,7 @@ const drawAnswer = (/** @type {ResponseAnswer} */ answer, /** @type {boolean} */
 /** Paints the lines in the colours of the present scheme, with the ring of the design. */
 export const paintFamily = () => {
   const dark = isDark();
-  const x = xParameter();
-  const measure = measureNamed(state.measure);
+  const { x, measure, by } = family.axes;
   const coloured = (/** @type {ResponseLine} */ line) => ({ ...line, color: lineColour(line.place, line.of, dark) });
   /** @returns {Line} */
   const ghost = (/** @type {ResponseLine} */ line) => {
@@ -166,8 +170,9 @@ export const paintFamily = () => {
   };
   /** @returns {Gap} */
   const marked = (/** @type {ResponseGap} */ gap) => ({ ...gap, ...statusMark(gap.status, dark) });
-  const here = valueIn(state.design, x.name);
-  const value = designValue(state.measure);
+  const design = presentAnswer();
+  const here = design?.values[x.name];
+  const value = answerValue(design, measure.name);
   const hasRing = isFiniteNumber(here) && isFiniteNumber(value);
   family.chart.view = state.view;
   family.chart.hidden = new Set(state.hidden);
@@ -175,7 +180,7 @@ export const paintFamily = () => {
     x: { label: x.label, unit: x.unit, log: state.log.x },
     y: { label: measure.label, unit: measure.unit, log: state.log.y },
     lines: [...family.ghosts.map(ghost), ...family.lines.map(coloured)],
-    title: lineParameter()?.label,
+    title: by?.label,
     bands: family.bands,
     gaps: family.gaps.map(marked),
     statuses: statusEntries(statusCounts(family.gaps), dark),
@@ -185,8 +190,9 @@ export const paintFamily = () => {
 
 /** The text for a mark, or for the whole chart if there is none. */
 const readout = (/** @type {Mark | null} */ mark) => {
-  const { unit } = xParameter();
-  const measure = measureNamed(state.measure);
+  if (!family.answer) return "";
+  const { x, measure } = family.axes;
+  const { unit } = x;
   if (mark?.gaps) {
     const each = mark.gaps.map((gap) => `${gap.name ? `${gap.name} ` : ""}${gap.status.replace("_", " ")}`);
     return `No settled motion at ${roundedNumber(mark.x, 5)} ${unit}: ${each.join(", ")}`;
@@ -201,7 +207,7 @@ const readout = (/** @type {Mark | null} */ mark) => {
     return `Bistable between ${ranges.join("; ")}`;
   }
   if (family.gaps.length === 0) return "";
-  return `${family.gaps.length} of ${family.answer?.rows.length} points have no settled motion: see the marks at the bottom`;
+  return `${family.gaps.length} of ${family.answer.rows.length} points have no settled motion: see the marks at the bottom`;
 };
 
 /** Writes the line below the chart. */

@@ -9,8 +9,7 @@ import { setStaleNote } from "./banner.js";
 import { dragSign, pitchSign, valuesAt } from "./kinematics.js";
 import { isVehicle, opened } from "./opened.js";
 import { request, ServerError } from "./server.js";
-import { wingShape } from "./wing.js";
-import { wingOutline } from "./wing-outline.js";
+import { wingOutline, wingShape } from "./wing-outline.js";
 
 /** @import { Design, RowTable, Signals, WingShape } from "../types.d.ts" */
 
@@ -35,8 +34,8 @@ const DRAG_COLOUR = "#d55e00";
 const hasMotion = opened.can.motion && !isVehicle;
 
 const motion = {
-  /** The design of the motion that is shown. @type {Design} */
-  design: {},
+  /** The wing of the motion that is shown. */
+  wing: PLAIN_WING,
   /** Signals of the wing; null before there is a motion. @type {Signals | null} */
   signals: null,
   /** The sign of `pitchSign`. */
@@ -55,13 +54,14 @@ const motion = {
  *
  * @param {Design} design
  * @param {string} title the name of the design
+ * @param {number[] | null} begin the state at the beginning of the motion; null for the motion that settles from rest
  */
-export const requestMotion = async (design, title) => {
+export const requestMotion = async (design, title, begin = null) => {
   if (!hasMotion) return;
   try {
-    const answer = await request("motion", { design, samples: SAMPLES });
+    const answer = await request("motion", { design, samples: SAMPLES, begin });
     if (!answer) return;
-    motion.design = design;
+    motion.wing = wingShape(answer.values) ?? PLAIN_WING;
     byId("motion-of").textContent = title;
     setStaleNote("motion", "");
     showSignals(answer);
@@ -245,7 +245,7 @@ const drawFrame = (/** @type {number} */ time) => {
   if (motion.signals) {
     if (motion.isPlaying) motion.share = (motion.share + (passed * Number(byId("speed").value)) / CYCLE_TIME) % 1;
     const now = valuesAt(motion.signals, motion.share);
-    paintFromAbove(now, motion.signals.stroke_deg ?? [], wingShape(motion.design) ?? PLAIN_WING);
+    paintFromAbove(now, motion.signals.stroke_deg ?? [], motion.wing);
     paintFromTip(now, motion.signals);
     for (const chart of motion.charts) chart.setTime(motion.share);
   }

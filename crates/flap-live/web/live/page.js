@@ -24,7 +24,7 @@ import { buildPanel, panelEvents, showPanel } from "./panel.js";
 import { addPin, showPins } from "./pins.js";
 import { startSaving } from "./save-dialog.js";
 import { connection } from "./server.js";
-import { applyState, foreignPresetWarning, lineParameter, saveState, state, xParameter } from "./state.js";
+import { applyState, foreignPresetWarning, saveState, state } from "./state.js";
 import { drawWing } from "./wing.js";
 
 /** @import { Design, Mark } from "../types.d.ts" */
@@ -44,6 +44,7 @@ const refine = () => {
   saveState(true);
   requestFine();
   requestNumbers().then(() => {
+    drawWing();
     showPins();
     if (family.answer) paintFamily();
   });
@@ -66,13 +67,13 @@ const showMarkMotion = debounced((/** @type {Mark | null} */ mark) => {
     requestMotion(state.design, "of the design");
     return;
   }
-  if (mark.row.status !== "periodic") return;
-  const by = lineParameter();
+  if (mark.row.status !== "periodic" || !family.answer) return;
+  const { x, by } = family.answer.request;
   /** @type {Design} */
-  const design = { ...state.design, [state.x.name]: mark.row.x };
+  const design = { ...family.answer.request.design, [x.name]: mark.row.x };
   if (by && mark.row.by !== null) design[by.name] = mark.row.by;
-  const place = `at ${roundedNumber(mark.x, 5)} ${xParameter().unit}`;
-  requestMotion(design, mark.name ? `${place}, ${mark.name}` : place);
+  const place = `at ${roundedNumber(mark.x, 5)} ${family.axes.x.unit}`;
+  requestMotion(design, mark.name ? `${place}, ${mark.name}` : place, mark.row.begin);
 }, MARK_REST);
 
 /** Applies the state in the address, after a reload or the back button. */

@@ -67,7 +67,11 @@ const changeParameter = (name, value, isDone) => {
 const readField = (/** @type {string} */ name) => {
   const parameter = parameterNamed(name);
   const text = rowOf(name).field.value.trim();
-  if (text === "") return changeParameter(name, parameter.kind === "following" ? null : parameter.value, true);
+  if (text === "") {
+    // An empty field resets a parameter that the preset or [vehicle] sets.
+    const canBeUnset = parameter.kind === "following" && parameter.published === null;
+    return changeParameter(name, canBeUnset ? null : parameter.value, true);
+  }
   const { number, rest, problem } = splitNumber(text);
   if (problem === undefined) {
     changeParameter(name, rest === "" ? inSI(number, parameter.factor) : `${number} ${rest}`, true);

@@ -3,7 +3,7 @@
 
 import { byId, element } from "../shared/dom.js";
 import { isFiniteNumber, labelWithUnit, roundedNumber } from "../shared/format.js";
-import { answerValue, designNumbers, MAIN_MEASURES } from "./design-numbers.js";
+import { answerValue, MAIN_MEASURES, presentAnswer } from "./design-numbers.js";
 import { hasMeasure, hasParameter, measureNamed, parameterNamed } from "./opened.js";
 import { panelEvents, showPanel } from "./panel.js";
 import { request } from "./server.js";
@@ -80,7 +80,7 @@ export const showPins = () => {
       designs.map((each) => valueText(parameter, valueIn(each, name))),
     );
   });
-  const found = [...pins.map((pin) => answers.get(pinKey(pin.design))), designNumbers.answer];
+  const found = [...pins.map((pin) => answers.get(pinKey(pin.design))), presentAnswer()];
   const isKnown = (/** @type {string} */ name) => found.some((answer) => isFiniteNumber(answerValue(answer, name)));
   const others = MAIN_MEASURES.filter((name) => name !== measure && isKnown(name));
   const measures = [measure, ...others].filter(hasMeasure).slice(0, MOST_MEASURES);

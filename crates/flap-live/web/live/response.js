@@ -3,24 +3,26 @@
 
 import { isFiniteNumber } from "../shared/format.js";
 
-/** @import { ResponseGap, ResponseLine, ResponseRow, RowTable } from "../types.d.ts" */
+/** @import { ResponseAnswer, ResponseGap, ResponseLine, ResponseRow, RowTable } from "../types.d.ts" */
 
 /** Lines with fewer values have marks. */
 const FEW_VALUES = 12;
 
 /**
- * The lines and gaps of rows: one line for each value of the column `by`, or one line if `by` is null.
+ * The lines and gaps of rows: one line for each value of the column `by`, or one line if `by` is null. A line also ends
+ * where rows are missing, because a condition excludes their points.
  *
- * @param {RowTable} answer
+ * @param {RowTable & Pick<ResponseAnswer, "states">} answer
  * @param {object} axes
  * @param {string} axes.x the column along x
+ * @param {number} axes.step distance of neighbouring points along the column `x`
  * @param {number} axes.factor factor from values of the column to values along x
  * @param {string} axes.y the column of the measure
  * @param {string | null} axes.by
  * @param {(value: any) => string} axes.nameOf the name of a line
  * @returns {{ lines: ResponseLine[], gaps: ResponseGap[] }}
  */
-export const responseLines = ({ columns, rows }, { x, factor, y, by, nameOf }) => {
+export const responseLines = ({ columns, rows, states }, { x, step, factor, y, by, nameOf }) => {
   const [xPlace, yPlace, status, stable, bistable] = [x, y, "status", "stable", "bistable"].map((name) =>
     columns.indexOf(name),
   );
@@ -29,7 +31,7 @@ export const responseLines = ({ columns, rows }, { x, factor, y, by, nameOf }) =
   const lines = new Map();
   /** @type {ResponseGap[]} */
   const gaps = [];
-  for (const cells of rows) {
+  for (const [i, cells] of rows.entries()) {
     const value = key < 0 ? "" : cells[key];
     let line = lines.get(value);
     if (!line) {
@@ -45,8 +47,15 @@ export const responseLines = ({ columns, rows }, { x, factor, y, by, nameOf }) =
       bistable: cells[bistable] === true,
       x: cells[xPlace],
       by: key < 0 ? null : value,
+      begin: states?.[i] ?? null,
     };
     const at = row.x * factor;
+    const last = line.rows.at(-1);
+    if (last && Math.abs(row.x - last.x) > 1.5 * step) {
+      line.x.push((line.x[line.x.length - 1] + at) / 2);
+      line.y.push(null);
+      line.rows.push({ ...row, status: "excluded", bistable: false, x: (last.x + row.x) / 2 });
+    }
     line.x.push(at);
     line.y.push(isFiniteNumber(cells[yPlace]) ? cells[yPlace] : null);
     line.rows.push(row);

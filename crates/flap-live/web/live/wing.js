@@ -2,54 +2,41 @@
 // A small picture of the wing to scale.
 
 import { byId, svgElement } from "../shared/dom.js";
-import { isFiniteNumber, roundedNumber } from "../shared/format.js";
-import { hasParameter } from "./opened.js";
+import { roundedNumber } from "../shared/format.js";
+import { presentAnswer } from "./design-numbers.js";
+import { opened } from "./opened.js";
 import { state, valueIn } from "./state.js";
-import { wingOutline } from "./wing-outline.js";
+import { wingOutline, wingShape } from "./wing-outline.js";
 
-/** @import { Design, WingShape } from "../types.d.ts" */
+/** @import { Design, Parameter, WingShape } from "../types.d.ts" */
 
 /** Size of the picture, position of the wing's axis, and space for the wing, in pixels. */
 const PICTURE = { width: 280, height: 92, left: 24, top: 22, across: 235, down: 54 };
 
 /**
- * The shape of a design's wing; null if the model does not have its length.
+ * The values of the design in SI units; null if only the server has them, because a value has a unit or a formula.
  *
- * @param {Design} design
- * @returns {WingShape | null}
+ * @returns {Design | null}
  */
-export const wingShape = (design) => {
-  const number = (/** @type {string} */ name) => {
-    const value = hasParameter(name) ? valueIn(design, name) : null;
-    return isFiniteNumber(value) ? value : null;
-  };
-  const length = number("wing_length");
-  if (!length) return null;
-  const area = number("wing_area");
-  const meanChord = number("mean_chord") ?? (area === null ? length / 4 : area / length);
-  const rootChord = number("root_chord");
-  let chord = (/** @type {number} */ share) => meanChord * 1.25 * Math.sqrt(Math.max(1 - share ** 4, 0));
-  if (rootChord !== null) {
-    const terms = [0, 1, 2, 3, 4].map((power) => number(`chord_term_${power}`) ?? 0);
-    chord = (share) => rootChord * terms.reduce((sum, term, power) => sum + term * share ** power, 0);
-  }
-  if (hasParameter("chord_table") && valueIn(design, "chord_table") !== "off") {
-    const table = Array.from({ length: 11 }, (_, i) => number(`chord_${i}`) ?? 0);
-    chord = (share) => {
-      const place = Math.min(Math.floor(share * 10), 9);
-      const part = share * 10 - place;
-      return table[place] * (1 - part) + table[place + 1] * part;
-    };
-  }
-  return { length, offset: number("wing_offset") ?? 0, axis: number("axis_position") ?? 0.1, chord };
+const designValues = () => {
+  const answer = presentAnswer();
+  if (answer) return answer.values;
+  const values = Object.fromEntries(opened.parameters.map(({ name }) => [name, valueIn(state.design, name)]));
+  const isText = (/** @type {Parameter} */ { name, kind }) => kind !== "choice" && typeof values[name] === "string";
+  return opened.parameters.some((each) => each.kind === "derived" || isText(each)) ? null : values;
 };
 
-/** Draws the wing of the design, with the wing that was opened as a dashed line. */
+/**
+ * Draws the wing of the design, with the wing that was opened as a dashed line. Keeps the picture if the values of the
+ * design are not known yet.
+ */
 export const drawWing = () => {
-  const wing = wingShape(state.design);
+  const values = designValues();
+  if (values === null) return;
+  const wing = wingShape(values);
   byId("wing").hidden = wing === null;
   if (wing === null) return;
-  const original = wingShape({}) ?? wing;
+  const original = wingShape(Object.fromEntries(opened.parameters.map(({ name, value }) => [name, value]))) ?? wing;
   const { width, height, left, top, across, down } = PICTURE;
   const shapes = [original, wing];
   const chords = shapes.flatMap((shape) => wingOutline(shape).map(([, y]) => Math.abs(y)));

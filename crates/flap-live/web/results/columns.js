@@ -75,6 +75,20 @@ export const levelsOf = (column, rows = column.cells.keys()) => {
   return [...levels].sort((a, b) => a - b);
 };
 
+/**
+ * A typed bound of a filter without its rounding: the outermost of the cells that equal the bound to nine digits, or to
+ * six digits in a column with seven; the bound itself if there are none.
+ *
+ * @param {Column} column
+ * @param {"low" | "high"} side
+ * @param {number} bound
+ */
+export const boundAtCells = ({ cells, type }, side, bound) => {
+  const tolerance = (type === "f32" ? 1e-6 : 1e-9) * Math.abs(bound);
+  const equal = extentOf(Array.from(cells).filter((cell) => Math.abs(cell - bound) <= tolerance));
+  return equal?.[side === "low" ? 0 : 1] ?? bound;
+};
+
 /** A cell as text, in the page's unit. */
 export const cellText = (/** @type {Column} */ column, /** @type {number} */ row) => {
   const value = column.cells[row];

@@ -4,6 +4,7 @@
 import { byId, element } from "../shared/dom.js";
 import { shortNumber } from "../shared/format.js";
 import { typedNumber } from "../shared/typed-number.js";
+import { boundAtCells } from "./columns.js";
 import { columns, numberPlaces } from "./data.js";
 import { activeView, saveShown, shown } from "./state.js";
 
@@ -78,7 +79,7 @@ const filterRow = (/** @type {Filter} */ filter, /** @type {number} */ number) =
       problemText.hidden = problem === "";
       if (problem !== "") return;
       if (typed === null) write();
-      else set(side, typed / factor);
+      else set(side, boundAtCells(columns[filter.place], side, typed / factor));
       saveShown(true);
     };
     slider.oninput = () => {

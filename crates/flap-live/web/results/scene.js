@@ -110,7 +110,7 @@ const evenly = (/** @type {Group[]} */ list, /** @type {number} */ most) => {
  */
 
 /**
- * Rows in groups, one line each, in rising order of values. A parameter that is not an axis, not the lines' column and
+ * Rows in groups, one line each, in rising order of values; rows without a value come last. A parameter that is not an axis, not the lines' column and
  * not fixed by a slice gives one line per value.
  *
  * @param {ResultsView} view
@@ -132,12 +132,15 @@ const groupsOf = (view, rows, by) => {
     if (group) group.rows.push(row);
     else groups.set(key, { key, value: by?.cells[row] ?? 0, branch: branchColumn?.cells[row] ?? 0, rows: [row] });
   }
-  return [...groups.values()].sort((a, b) => a.value - b.value);
+  const isEmpty = (/** @type {Group} */ { value }) => Number(Number.isNaN(value));
+  return [...groups.values()].sort((a, b) => isEmpty(a) - isEmpty(b) || a.value - b.value);
 };
 
 /** The name of a value of a column. */
-const nameOf = (/** @type {Column} */ { words, factor, unit }, /** @type {number} */ value) =>
-  words ? (words[value] ?? "none") : `${shortNumber(value * factor)} ${unit}`.trim();
+const nameOf = (/** @type {Column} */ { words, factor, unit }, /** @type {number} */ value) => {
+  if (Number.isNaN(value)) return "none";
+  return words ? words[value] : `${shortNumber(value * factor)} ${unit}`.trim();
+};
 
 /**
  * @param {ResultsView} view
@@ -151,9 +154,11 @@ const linesDrawing = (view, rows, scene, xOf, yOf) => {
   const dark = isDark();
   const by = view.by === null ? null : columns[view.by];
   const branch = by ? null : branchColumn;
-  const groups = groupsOf(view, rows, by);
+  const onAxis = rows.filter((row) => isOnAxis(xOf(row), view.log.x));
+  const groups = groupsOf(view, onAxis, by);
   const kept = evenly(groups, MOST_LINES);
   const values = [...new Set(kept.map(({ value }) => value))];
+  const places = new Map(values.map((value, place) => [value, place]));
   const count = kept.reduce((sum, group) => sum + group.rows.length, 0);
   scene.gaps = [];
   for (const group of kept) {
@@ -172,7 +177,7 @@ const linesDrawing = (view, rows, scene, xOf, yOf) => {
       name,
       color: branch
         ? lineColour(group.branch, branch.words?.length ?? 1, dark)
-        : lineColour(values.indexOf(group.value), values.length, dark),
+        : lineColour(places.get(group.value) ?? 0, values.length, dark),
       x: members.map(xOf),
       y,
       rows: members,
@@ -261,7 +266,7 @@ export const drawingOf = (view, rows) => {
     legend: [],
     statuses: statusEntries(statusCounts(rows), isDark()),
   };
-  const without = view.kind === "map" ? 0 : rows.length - whole.length;
+  const without = rows.length - whole.length;
   if (whole.length === 0) return { scene, without, problem: "no row has both values: nothing is drawn" };
   if (view.kind === "line") return { ...linesDrawing(view, rows, scene, xOf, yOf), without };
   if (view.kind === "map") return { ...mapDrawing(view, whole, scene, xOf, yOf), without };
