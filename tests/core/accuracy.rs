@@ -4,9 +4,8 @@ use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Preset};
 use flap_core::simulate::{Row, Simulator, SolverSettings, Status, all, preset};
 
-use crate::data::worse;
 use crate::robustness::Random;
-use crate::rows;
+use crate::rows::{self, worse};
 use crate::terms::is_left_out;
 
 /// Number of random designs of each preset, and number of these designs that are integrated again at the tolerance of

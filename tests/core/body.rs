@@ -13,7 +13,8 @@ use flap_core::vehicle::{FORCES, Mount, TORQUES, Vehicle};
 
 use nalgebra::{Matrix6, Vector3};
 
-use crate::data::{Record, table, worse};
+use crate::data::{Record, table};
+use crate::rows::worse;
 
 const MOTION: [&str; 6] = [
     "body_velocity_forward",

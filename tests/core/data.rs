@@ -40,11 +40,6 @@ pub(crate) fn table(path: &str) -> Vec<Record> {
     rows
 }
 
-/// The larger of two errors; NaN if one of the errors is NaN.
-pub(crate) fn worse(one: f64, other: f64) -> f64 {
-    if one.is_nan() || one > other { one } else { other }
-}
-
 /// Fails unless the relative difference between `actual` and `expected` is within `tolerance`.
 pub(crate) fn assert_close(actual: f64, expected: f64, tolerance: f64, what: &str) {
     let error = (actual - expected).abs() / expected.abs();

@@ -181,6 +181,26 @@ fn equal_extrema_of_both_half_strokes_have_a_kink() {
     }
 }
 
+/// With linear damping, tiny motions are proportional to the voltage, and so are the derivatives of these motions.
+#[test]
+fn tiny_motions_have_derivatives_as_accurate_as_others() {
+    let (model, preset) = preset("ozaki2018-large").unwrap();
+    let index = |name: &str| Parameter::index(model.parameters(), name).unwrap();
+    let stroke = model.columns().iter().position(|column| column.name == "stroke_first_deg").unwrap();
+    let [large, tiny] = [1e-3, 1e-7].map(|voltage| {
+        let mut values = (preset.values)();
+        for (name, value) in
+            [("drive_voltage_pp", voltage), ("stroke_damping", 2e-7), ("hinge_damping", 1e-8)]
+        {
+            values[index(name)] = value;
+        }
+        let rows = rows::of(model, slice::from_ref(&values), Backend::best(), &solver());
+        let found = gradient(model, &values, &rows[0], &[index("drive_frequency")]);
+        found.slopes[0][stroke].unwrap() / rows[0].measures[stroke]
+    });
+    assert!((tiny / large - 1.0).abs() < 1e-4, "{tiny}, not {large}");
+}
+
 /// If a parameter of a term is zero, flap leaves out the term. The derivative with respect to the parameter contains the term.
 #[test]
 fn a_term_that_is_zero_has_a_derivative() {

@@ -103,3 +103,8 @@ pub(crate) fn assert_lanes_equal_scalars_at(
     }
     best.unwrap()
 }
+
+/// The larger of two errors; NaN if one of the errors is NaN.
+pub(crate) fn worse(one: f64, other: f64) -> f64 {
+    if one.is_nan() || one > other { one } else { other }
+}

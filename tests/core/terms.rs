@@ -7,7 +7,7 @@ use flap_core::model::Model;
 use flap_core::model::bimorph::{Bimorph, Constants, Law, Params};
 use flap_core::num::Backend;
 use flap_core::ode::Ode;
-use flap_core::parameter::Parameter;
+use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, preset};
 
 use crate::data::assert_close;
@@ -72,6 +72,15 @@ impl Design {
             let index = Parameter::index(self.model.parameters(), name).unwrap();
             self.values[index] = *value;
         }
+        self
+    }
+
+    fn choose(mut self, name: &str, option: &str) -> Design {
+        let index = Parameter::index(self.model.parameters(), name).unwrap();
+        let Kind::Choice(options) = self.model.parameters()[index].kind else {
+            panic!("{name} is no choice")
+        };
+        self.values[index] = options.iter().position(|known| *known == option).unwrap() as f64;
         self
     }
 
@@ -308,6 +317,22 @@ fn bias_between_the_plates_moves_the_mean_stroke() {
     assert_close(up, 4.83, 0.02, "mean stroke");
     let [weak] = Design::new("jafferis2016").with(&[("plate_ratio", 0.8)]).measures(["stroke_mean_deg"]);
     assert!(weak > 0.5, "plate 1 pulls more: {weak}");
+}
+
+/// In a fast flow from the trailing edge, the moment of the air exceeds the moment of the hinge. The rest of the wing is
+/// then unstable.
+#[test]
+fn a_wing_at_rest_in_wind_can_be_unstable() {
+    let row = |speed: f64| {
+        let blade = Design::new("ozaki2018-large").choose("flow_direction", "blade");
+        blade.with(&[("drive_voltage_pp", 0.0), ("body_velocity_up", -speed)]).row()
+    };
+    for speed in [0.0, 3.5] {
+        let row = row(speed);
+        assert!(row.floquet_max.is_nan() && row.stable() == Some(true), "{speed} m/s: {row:?}");
+    }
+    let row = row(4.2);
+    assert!(row.floquet_max > 2.0 && row.stable() == Some(false), "{row:?}");
 }
 
 /// As the growth of the transmission ratio tends to zero, the equations tend to the equations of the paper.

@@ -10,7 +10,7 @@ use flap_core::ode::ensemble::Observer;
 use flap_core::ode::solve::solve;
 use flap_core::ode::{Ending, Start};
 
-use crate::data::worse;
+use crate::rows::worse;
 use crate::span::tolerances;
 
 /// The run of a point from the state `y`.

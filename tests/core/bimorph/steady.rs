@@ -4,7 +4,8 @@ use flap_core::model::bimorph::Params;
 use flap_core::simulate::Row;
 
 use super::{driven, measure, params, settled};
-use crate::data::{Record, assert_close, table, worse};
+use crate::data::{Record, assert_close, table};
+use crate::rows::worse;
 
 /// The operating point of a reference row; the table also contains the constants that follow from the set.
 fn operating_point(record: &Record) -> Params {

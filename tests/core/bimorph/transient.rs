@@ -8,7 +8,8 @@ use flap_core::simulate::{ChirpRequest, PointRun, SolverSettings, Trajectory};
 
 use super::orbit::{distance, march};
 use super::{driven, model, params};
-use crate::data::{Record, assert_close, table, worse};
+use crate::data::{Record, assert_close, table};
+use crate::rows::worse;
 use crate::span::{self, tolerances};
 
 fn end_state(record: &Record) -> [f64; 4] {

@@ -19,6 +19,7 @@
 use nalgebra::{DMatrix, SMatrix, SVector};
 
 use super::begin::begin;
+use super::march::share_of_tolerance;
 use super::orbit_row::{MANY_SWITCHES, measures};
 use super::request::Unfinished;
 use super::settings::SolverSettings;
@@ -160,7 +161,9 @@ pub(super) fn gradient<M: Model<N>, R: Scalar, const N: usize>(
         &changed.fold(model.variant(values), |model, values| model.with_terms_of(&model.variant(values)));
     let mut start = begin(model, values, Some(state))?;
     start.tolerance_factor = tolerance_factor(solver.rtol);
-    let (recording, outcome) = record::<M, R, N>(model, &solver.tolerances(), &start, interrupted);
+    let mut tolerances = solver.tolerances();
+    tolerances.atol *= share_of_tolerance(&start.y, &start.scale);
+    let (recording, outcome) = record::<M, R, N>(model, &tolerances, &start, interrupted);
     let sides = changes.iter().map(|change| sides(model, change)).collect();
     let orbit = Orbit { model, solver, values, start: &start, recording: &recording, changes, sides };
     let mut gradient = if outcome.ending != Ending::Stopped {

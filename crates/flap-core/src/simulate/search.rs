@@ -41,6 +41,9 @@ const LOOSE_RTOL: f64 = 3e-4;
 /// than it saves.
 const LOOSE_FOR: f64 = 4e-6;
 
+/// Excess of a multiplier over 1 below which a wing at rest counts as stable.
+const NEUTRAL: f64 = 1e-3;
+
 /// Largest number of drive periods marched at the loose tolerance.
 const LOOSE_CYCLES: u32 = 16;
 
@@ -706,8 +709,12 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let orbit = MeasuredOrbit { y, sums, middle, switches: end.outcome.switches, rtol: self.rtol() };
         let (row, error) = orbit_row::row_of(*model, solver, start, &orbit);
         let at_rest = row.status != Status::Periodic || orbit_row::is_at_rest(*model, start, &orbit);
-        let multiplier = monodromy.as_ref().filter(|_| !at_rest).map(spectral_radius);
-        let floquet_max = multiplier.map_or(f64::NAN, |largest| largest.powi(self.maps_per_period()));
+        let multiplier = monodromy.as_ref().map(spectral_radius);
+        let multiplier = multiplier.map(|largest| largest.powi(self.maps_per_period()));
+        // In still air, the drag of a wing at rest has no linear part, so rounding decides whether the multiplier is
+        // below 1. In wind, the rest can be unstable.
+        let floquet_max =
+            multiplier.filter(|largest| !at_rest || *largest > 1.0 + NEUTRAL).unwrap_or(f64::NAN);
         (Row { residual: *residual, floquet_max, state: y.to_vec(), ..row }, error)
     }
 

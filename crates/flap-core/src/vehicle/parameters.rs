@@ -21,7 +21,7 @@ const PLACE: [(&str, &str, &str); 6] = [
     ("position_z", "m", "Upward position of the shoulder of a wing"),
     ("plane_roll", "rad", "Roll of the stroke plane; positive values lift the tip of the wing"),
     ("plane_pitch", "rad", "Pitch of the stroke plane; positive values lower the front of the plane"),
-    ("plane_yaw", "rad", "Yaw of the stroke plane; positive values turn the front of the plane away from the wing"),
+    ("plane_yaw", "rad", "Yaw of the stroke plane; positive values turn the front of the plane outwards, to the side of the wing"),
 ];
 
 /// Parameters of the vehicle as a whole.
