@@ -1,5 +1,7 @@
 //! Rows of vehicles at hover, and rows with the damping matrix.
 
+use std::fs;
+
 use crate::support::{Folder, WINGS};
 
 /// The robot of the manual, up to the table `[vehicle]`, to which each test adds keys.
@@ -164,6 +166,24 @@ fn derivatives_at_hover_contain_the_change_of_the_inputs() {
         "sweep grid.toml --out rows.csv",
         "`drive_voltage_pp` is an input that the search for hover changes",
     );
+}
+
+/// The search for hover changes its inputs, so neither formulas nor conditions can depend on these inputs.
+#[test]
+fn formulas_and_conditions_do_not_depend_on_the_inputs_of_hover() {
+    for section in [
+        "[derived]\nleft_drive_voltage_pp = \"0.95 * drive_voltage_pp\"",
+        "[where]\nlimit = \"drive_voltage_pp < 150\"",
+    ] {
+        let grid = format!("{HEAD}{section}\n[vehicle]\ntotal_mass = \"69 mg\"\ntrim = \"hover\"\n{WINGS}");
+        let folder = Folder::with_grid(&grid);
+        folder.refuses(
+            "sweep grid.toml --out rows.csv",
+            "depends on drive_voltage_pp, which the search for hover changes",
+        );
+        fs::write(folder.path("free.toml"), grid.replace("trim = \"hover\"\n", "")).unwrap();
+        folder.ends(0, "check free.toml");
+    }
 }
 
 /// The lift of the four-bar jumps strip by strip, so differences replace its derivatives.

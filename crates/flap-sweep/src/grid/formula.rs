@@ -35,6 +35,8 @@ pub(super) struct Names<'n> {
     pub(super) device: Option<Vec<Vec<Value>>>,
     /// For each parameter without its own value, a description of the parameters from which its value comes.
     pub(super) unset: Vec<Option<&'static str>>,
+    /// Parameters that the search for hover changes. Their values are unknown before a point is run.
+    pub(super) inputs: Vec<usize>,
     /// Measures of the model, without the user's measures.
     pub(super) columns: Vec<Column>,
     /// True if the model's measures are allowed. Measures are unknown before a point is run.
@@ -173,7 +175,19 @@ pub(super) fn read(
             let length = entry.value.get_ref().as_str().map_or(0, str::len);
             vec![ExpressionError::mismatch(0..length, wanted)]
         }
-        Ok(expression) => return expression,
+        Ok(expression) => {
+            let input =
+                expression.iter().flat_map(Expression::reads).find(|place| names.inputs.contains(place));
+            if let Some(input) = input {
+                let name = names.parameters[input].name;
+                let message =
+                    format!("`{}` depends on {name}, which the search for hover changes", entry.key);
+                let help = "only [measure] can use the inputs of hover; filter rows by the columns hover_…";
+                problems.report(entry.value.span(), message).help(help);
+                return None;
+            }
+            return expression;
+        }
         Err(errors) => errors,
     };
     for error in &errors {

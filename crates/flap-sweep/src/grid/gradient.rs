@@ -120,9 +120,9 @@ fn parameter(
         return None;
     };
     let is_derived = derived.parameters().any(|derived| derived == index);
-    let is_input = body.is_some_and(|body| body.has_input(index));
-    let unset = names.unset[names.standing(index)];
-    let Err(reason) = check(&names.parameters[index], is_derived, is_input, unset) else {
+    let standing = names.standing(index);
+    let is_input = body.is_some_and(|body| body.has_input(standing));
+    let Err(reason) = check(&names.parameters[index], is_derived, is_input, names.unset[standing]) else {
         return Some(index);
     };
     let diagnostic = problems.report(item.span(), format!("`{name}` {reason}"));

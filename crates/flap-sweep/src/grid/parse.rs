@@ -209,7 +209,10 @@ fn read_points<'n>(
         (None, None) => simulator.columns(),
     };
     let columns = columns.to_vec();
-    let names = Names { parameters, preset, device, unset, columns, are_measured: false, own: Vec::new() };
+    let is_input = |index: &usize| body.as_ref().is_some_and(|body| body.has_input(*index));
+    let inputs: Vec<usize> = (0..parameters.len()).filter(is_input).collect();
+    let own = Vec::new();
+    let names = Names { parameters, preset, device, unset, inputs, columns, are_measured: false, own };
     let derived = formula::read_derived(&drafts, &names, problems);
     let conditions = formula::read_conditions(table::find(root, "where"), &names, problems);
     Points { base, differences, axes, sample_file, resonance, body, derived, conditions, unreached, names }

@@ -17,7 +17,7 @@ const SOLVED: f64 = 1e-6;
 /// the input. `run` contains the values of a vehicle that hovers with `inputs`, `state` is the state of its motion, and
 /// `changes` are changes of the design at these inputs.
 ///
-/// Derivatives are missing if the inputs of hover are not unique, because more inputs than targets have an effect.
+/// Derivatives are missing if the inputs of hover are not unique, for example if more inputs than targets have an effect.
 ///
 /// # Errors
 /// Returns an error if the computation is interrupted.
@@ -83,7 +83,8 @@ fn response(
     }
     let least = IDLE * matrix.amax();
     let effective = matrix.column_iter().filter(|column| column.amax() > least).count();
-    if effective > places.len() { Err(NoSlope::Missing) } else { Ok(matrix) }
+    let is_unique = matrix.rank(least) == effective;
+    if is_unique { Ok(matrix) } else { Err(NoSlope::Missing) }
 }
 
 /// Returns the relative changes u' of the inputs that let the targets' components change at these rates.

@@ -110,7 +110,9 @@ impl Problem {
         for (number, condition) in conditions.iter().enumerate() {
             let which = Which::Condition(number);
             let expression = parsed(&plan, condition, which, Kind::Condition)?;
-            let is_of_parameters = expression.reads().all(|place| place < plan.parameters().len());
+            let is_input = |place| plan.body().is_some_and(|body| body.has_input(place));
+            let is_parameter = |place| place < plan.parameters().len() && !is_input(place);
+            let is_of_parameters = expression.reads().all(is_parameter);
             match Limit::of_condition(condition.trim(), &expression) {
                 Some(found) => limits.extend(found),
                 None if is_of_parameters => kept.push(Condition { name: condition.clone(), expression }),

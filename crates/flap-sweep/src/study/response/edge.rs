@@ -61,8 +61,9 @@ impl EdgeRange {
             return error(format!("`{name}` has no value of its own"), help);
         }
         let [from, to] = range;
-        if from >= to || !(from..=to).contains(&value) {
-            let [value, from, to] = [value, from, to].map(|value| at(value, unit));
+        let values = plan.in_designs(parameter).map_or_else(|| vec![value], <[f64]>::to_vec);
+        if let Some(value) = values.iter().find(|value| from >= to || !(from..=to).contains(*value)) {
+            let [value, from, to] = [*value, from, to].map(|value| at(value, unit));
             let help = "the range must rise, and contain the value of the design, at which each edge begins";
             return error(format!("`{name}` is {value}, and its range is {from} to {to}"), help);
         }
