@@ -52,16 +52,9 @@ fn a_waveform_from_a_file_drives_like_its_shape() {
 /// The lag of the stroke refers to the first harmonic of the waveform, wherever the record begins.
 #[test]
 fn the_lag_does_not_depend_on_the_beginning_of_a_waveform() {
-    let rows: String = (0..=100)
-        .map(|i| {
-            format!(
-                "{},{}\n",
-                f64::from(i) * 1e-4,
-                (std::f64::consts::TAU * f64::from(i % 100) / 100.0).cos()
-            )
-        })
-        .collect();
-    let folder = folder_with("wave.csv", &format!("time_s,wave\n{rows}"));
+    let wave = |i: u32| (std::f64::consts::TAU * f64::from(i % 100) / 100.0).cos();
+    let rows: Vec<String> = (0..=100).map(|i| format!("{},{}", f64::from(i) * 1e-4, wave(i))).collect();
+    let folder = folder_with("wave.csv", &format!("time_s,wave\n{}\n", rows.join("\n")));
     for preset in ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"] {
         let sine = folder.flap(&format!("run {preset} --set drive_frequency=100")).stdout;
         let cosine = folder.ends(0, &format!("run {preset} --waveform wave.csv")).stdout;
