@@ -160,8 +160,10 @@ fn derivatives_at_hover_contain_the_change_of_the_inputs() {
     }
     let amplitude = grid("drive_frequency", [120.0, 121.0, 122.0])
         .replace("with_respect_to = [\"drive_frequency\"]", "with_respect_to = [\"drive_voltage_pp\"]");
-    Folder::with_grid(&amplitude)
-        .refuses("sweep grid.toml --out rows.csv", "`drive_voltage_pp` is an input that the search for hover changes");
+    Folder::with_grid(&amplitude).refuses(
+        "sweep grid.toml --out rows.csv",
+        "`drive_voltage_pp` is an input that the search for hover changes",
+    );
 }
 
 /// The lift of the four-bar jumps strip by strip, so differences replace its derivatives.
