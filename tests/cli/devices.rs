@@ -465,3 +465,48 @@ fn mistakes_in_a_list_of_devices_are_told_with_their_place() {
         .unwrap();
     folder.ends(2, "check grid.toml").says("`wing_length` differs between the designs");
 }
+
+/// A device has the values of the formulas, and no values of axes.
+#[test]
+fn a_device_of_a_grid_has_its_derived_values() {
+    let folder = folder();
+    let write = |rest: &str| fs::write(folder.path("grid.toml"), format!("device = \"mybee.toml\"\n{rest}"));
+    let derived = "[derived]\ntransmission_stiffness = \"device.transmission_stiffness * 4\"\n";
+    write(&format!("{derived}{AXES}")).unwrap();
+    let written = folder.ends(0, "device new grid.toml");
+    let stiffness = written.stdout.lines().find(|line| line.starts_with("transmission_stiffness = "));
+    fs::write(folder.path("copy.toml"), &written.stdout).unwrap();
+    let of_grid = folder.ends(0, "run grid.toml --set drive_frequency=120 --format csv").stdout;
+    let of_copy = folder.ends(0, "run copy.toml --set drive_frequency=120 --format csv").stdout;
+    assert_eq!(of_grid, of_copy, "{stiffness:?}");
+    assert_ne!(of_copy, folder.ends(0, "run mybee.toml --set drive_frequency=120 --format csv").stdout);
+    written.says("a device has no axes: it has the values before the axes are applied, drive_frequency = ");
+
+    write(&format!("[derived]\ntransmission_stiffness = \"drive_frequency\"\n{AXES}")).unwrap();
+    folder
+        .ends(2, "device new grid.toml")
+        .says("`transmission_stiffness` is derived from `drive_frequency`, which has an axis")
+        .says("help: set drive_frequency under [params]");
+    write("[derived]\ntransmission_stiffness = \"-1\"\n").unwrap();
+    folder.ends(2, "device new grid.toml").says("`transmission_stiffness` is computed as -1");
+    write("[params]\ndrive_frequency = \"resonance\"\n").unwrap();
+    folder.ends(2, "device new grid.toml").says("`drive_frequency` is the resonance of each design");
+    // A parameter that only other designs set is not set in the device of the first design.
+    fs::write(folder.path("other.toml"), params("wing_radius_1 = 0.5")).unwrap();
+    fs::write(folder.path("grid.toml"), "device = [\"mybee.toml\", \"other.toml\"]\n").unwrap();
+    let written = folder.ends(0, "device new grid.toml");
+    written.says("device = mybee");
+    assert!(!written.stdout.contains("NaN"), "{}", written.stdout);
+}
+
+/// Values of axes and formulas have no standard errors.
+#[test]
+fn standard_errors_belong_to_the_values_of_the_device() {
+    let folder = folder();
+    let rest = "[axes]\nhinge_stiffness = [1e-6, 2e-6]\n";
+    fs::write(folder.path("grid.toml"), format!("device = \"mybee.toml\"\n{rest}")).unwrap();
+    let listed = folder.ends(0, "models grid.toml").stdout;
+    let line = |name: &str| listed.lines().find(|line| line.trim().starts_with(name)).unwrap().to_owned();
+    assert!(!line("hinge_stiffness ").contains('±'), "{listed}");
+    assert!(line("wing_inertia_stroke ").contains("± 1 ng*m^2"), "{listed}");
+}

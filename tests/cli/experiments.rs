@@ -39,6 +39,26 @@ fn a_waveform_from_a_file_drives_like_its_shape() {
         let (file, shape) = (value(&ended.stdout, column), value(&shaped, column));
         assert!((file - shape).abs() < 1e-4 * shape.abs(), "{column}: {file} and {shape}");
     }
+    // Formulas use the frequency of the file.
+    let derived = |formula: &str| {
+        let grid = format!(
+            "preset = \"arabagi2013-75hz\"\n[axes]\ndrive_frequency = [50, 60]\n[derived]\n{formula}\n"
+        );
+        fs::write(folder.path("grid.toml"), grid).unwrap();
+    };
+    derived("drive_voltage_pp = \"2 * drive_frequency\"");
+    let of_grid = folder.ends(0, "run grid.toml --waveform wave.csv --format csv");
+    of_grid.says("drive_frequency = 75.0 Hz, from the record, not from the point of the grid");
+    let volts =
+        folder.ends(0, "run arabagi2013-75hz --waveform wave.csv --set drive_voltage_pp=150 --format csv");
+    assert_eq!(of_grid.stdout, volts.stdout);
+    derived("drive_voltage_pp = \"55 - drive_frequency\"");
+    folder.ends(2, "run grid.toml --waveform wave.csv").says("`drive_voltage_pp` is computed as -20.0 V");
+    let grid = "preset = \"arabagi2013-75hz\"\n[derived]\ndrive_frequency = \"50\"\n";
+    fs::write(folder.path("grid.toml"), grid).unwrap();
+    folder
+        .ends(2, "run grid.toml --waveform wave.csv")
+        .says("the grid file derives drive_frequency, but the record");
     // The period of the file gives way to a frequency that is set.
     let slow = folder.flap("run arabagi2013-75hz --waveform wave.csv --set drive_frequency=60").stdout;
     assert!((value(&slow, "stroke_pp_deg") - value(&ended.stdout, "stroke_pp_deg")).abs() > 1.0);
@@ -302,6 +322,11 @@ fn terms_change_the_measures_as_their_parameters_do() {
         let found: f64 = line[4].parse().unwrap();
         assert!((found - expected).abs() < 2e-3 && expected.abs() > 0.1, "{name}: {found} and {expected}");
     }
+    // A derived parameter that the command line sets keeps its value.
+    let derived = "preset = \"jafferis2016\"\n[derived]\ndrive_voltage_pp = \"100\"\nhinge_damping = \"0\"\n";
+    fs::write(folder.path("derived.toml"), derived).unwrap();
+    let set = "--set drive_voltage_pp=160 --set hinge_damping=1e-10";
+    assert_eq!(folder.ends(0, &format!("test terms derived.toml {set} --format csv")).stdout, csv);
     let page = folder.ends(0, &format!("test terms {point}")).stdout;
     assert!(page.contains("hinge_damping") && page.contains("100 pN*m*s"), "{page}");
     folder.ends(2, "test terms jafferis2016 --max-cycles 2").says("is not periodic");

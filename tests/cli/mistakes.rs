@@ -294,6 +294,10 @@ fn unsettled_points_come_with_a_command() {
     ended.says(&format!(
         "the point did not settle within 4 drive periods. To run it longer: flap {command}. If"
     ));
+    let options = "--settle-tol 1e-9 --rtol 1e-7 --accuracy 0.01";
+    folder
+        .ends(0, &format!("run grid.toml {options}"))
+        .says("flap run grid.toml --rtol 1e-7 --accuracy 0.01 --settle-tol 1e-9 --max-cycles 40. If");
     let one = Folder::with_grid(&(frequencies(1) + "[solver]\nmax_cycles = 1\n"));
     one.ends(0, "sweep grid.toml").says("1 point did not settle within 1 drive period. To run it longer");
     one.ends(0, "results convert grid.csv o.csv").says("1 row in o.csv\n");

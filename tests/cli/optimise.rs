@@ -49,6 +49,12 @@ fn a_device_has_the_row_of_the_optimum_to_the_last_digit() {
     folder.ends_with(2, &again).says("use --force to overwrite the file");
     let forced = [&again[..], &["--force", "--rtol", "1e-8"]].concat();
     folder.ends_with(0, &forced).says("`flap run best.toml --rtol 1e-8");
+    let solver = "[solver]\nrtol = 1e-5\naccuracy = 1e-3\nmax_steps = 10000\n";
+    fs::write(folder.path("solver.toml"), format!("{GRID}{solver}")).unwrap();
+    folder
+        .ends(0, "optimise solver.toml --maximise lift_mean_mn --out solved.toml --starts 1 --sample 8")
+        .says("`flap run solved.toml --rtol 1e-5 --accuracy 0.001` computes its row")
+        .says("a device has no [solver], so this row is computed with the default of max_steps\n");
     folder.refuses(
         "optimise grid.toml --maximise lift_mean_mn --out grid.toml --force",
         "inputs are never overwritten",

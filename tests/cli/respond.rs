@@ -366,7 +366,9 @@ fn basins_have_a_row_per_value_of_a_band() {
     );
     let none = "hinge_stiffness = 1.5 uN*m/rad: no value of drive_frequency with two stable orbits\n";
     assert!(ended.stdout.ends_with(none), "{}", ended.stdout);
-    let rows = folder.ends(0, "respond grid.toml --basins 50 --format csv").stdout;
+    let ended = folder.ends(0, "respond grid.toml --basins 50 --format csv");
+    ended.says(none);
+    let rows = ended.stdout;
     let rows: Vec<Vec<&str>> = rows.lines().map(|line| line.split(',').collect()).collect();
     let names = ["hinge_stiffness", "drive_frequency", "starts", "share_up", "error_up", "share_down"];
     assert_eq!(rows[0][..6], names);
@@ -377,4 +379,5 @@ fn basins_have_a_row_per_value_of_a_band() {
     }
     folder.ends(2, "respond grid.toml --basins 0").says("--basins");
     folder.ends(2, "respond grid.toml --seed 1").says("--basins");
+    folder.ends(2, "respond grid.toml --basins 5 --strict").says("cannot be used with");
 }

@@ -217,3 +217,45 @@ fn wings_without_finite_parameters_are_refused() {
         assert!(!tiny.stdout.contains("NaN"), "{}", tiny.stdout);
     }
 }
+
+/// A wing with its own device has the standard errors and the correlations of the device.
+#[test]
+fn the_device_of_a_wing_has_its_correlations() {
+    let device = "preset = \"jafferis2016\"\n[params]\nhinge_stiffness = { value = 2e-6, sd = 1e-7 }\n\
+                  wing_inertia_stroke = { value = 50e-12, sd = 1e-12 }\n[[correlation]]\n\
+                  between = [\"hinge_stiffness\", \"wing_inertia_stroke\"]\ncoefficient = 0.9\n";
+    let grid = "preset = \"jafferis2016\"\n[vehicle]\n[[vehicle.wings]]\nname = \"left\"\ndevice = \"left.toml\"\n\
+                [[vehicle.wings]]\nname = \"right\"\nmirrored = true\n\
+                [sample]\nmethod = \"sobol\"\nn = 64\nof = \"device\"\n[output]\ncolumns = [\"force_up_mn\"]\n[solver]\nmax_cycles = 1\n";
+    let folder = Folder::with_grid(grid);
+    fs::write(folder.path("left.toml"), device).unwrap();
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let text = folder.read("rows.csv");
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let z = |name: &str, mean: f64, sd: f64| {
+        let place = rows[0].iter().position(|known| *known == name).unwrap();
+        let number = move |row: &Vec<&str>| (row[place].parse::<f64>().unwrap() - mean) / sd;
+        rows[1..].iter().map(number).collect::<Vec<f64>>()
+    };
+    let stiffness = z("left_hinge_stiffness", 2e-6, 1e-7);
+    let inertia = z("left_wing_inertia_stroke", 50e-12, 1e-12);
+    let correlation = stiffness.iter().zip(&inertia).map(|(a, b)| a * b).sum::<f64>() / 64.0;
+    assert!((correlation - 0.9).abs() < 0.1, "{correlation}");
+}
+
+/// The mean of one wing's parameter is not the value of all wings if this value differs between points.
+#[test]
+fn a_mean_does_not_ignore_sampled_and_derived_values_of_all_wings() {
+    let grid = "preset = \"jafferis2016\"\n[vehicle]\n[[vehicle.wings]]\nname = \"left\"\n[[vehicle.wings]]\n\
+                name = \"right\"\nmirrored = true\n[sample]\nmethod = \"random\"\nn = 2\n[sample.parameters]\n\
+                left_hinge_stiffness = { relative_sd = \"5 %\" }\n";
+    let told = "`left_hinge_stiffness` is not set, so it has no value for the mean";
+    for (more, code) in [
+        ("", 0),
+        ("hinge_stiffness = { relative_sd = \"5 %\" }\n", 2),
+        ("[derived]\nhinge_stiffness = \"2e-6\"\n", 2),
+    ] {
+        let ended = Folder::with_grid(&format!("{grid}{more}")).ends(code, "check grid.toml");
+        assert_eq!(ended.stderr.contains(told), code == 2, "{more}: {}", ended.stderr);
+    }
+}

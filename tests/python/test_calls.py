@@ -77,6 +77,25 @@ def test_a_design_at_its_resonance():
     assert row["resonance_hz"] == flapwing.sweep(grid)["resonance_hz"][0]
     motion = flapwing.trajectory(grid, cycles=1, samples=4)
     assert motion["time_s"][-1] == pytest.approx(1 / row["resonance_hz"])
+    with pytest.raises(ValueError, match="each design at its resonance, which excludes derivatives and initial states"):
+        flapwing.run(grid, initial_state={"pitch": "10 deg"})
+    wings = [{"name": "left"}, {"name": "right", "mirrored": True}]
+    hover = {"preset": "jafferis2016", "vehicle": {"total_mass": "85 mg", "trim": "hover", "wings": wings}}
+    with pytest.raises(ValueError, match="rows at hover, and rows with the damping matrix, have no states"):
+        flapwing.run(hover, initial_state={"left_pitch": "10 deg"})
+
+
+def test_formulas_use_the_frequency_of_a_record():
+    time = np.linspace(0, 0.01, 51)
+    record = (time, np.sin(2 * np.pi * time / 0.01))
+    grid = {"preset": PRESET, "derived": {"drive_voltage_pp": "0.8 * drive_frequency"}}
+    row = flapwing.run(grid, waveform=record)
+    assert row["stroke_pp_deg"] == flapwing.run(PRESET, waveform=record, drive_voltage_pp=80)["stroke_pp_deg"]
+    grid["derived"] = {"drive_voltage_pp": "105 - drive_frequency - 10"}
+    assert flapwing.run(grid, waveform=record)["status"] == "invalid"
+    grid["derived"] = {"drive_frequency": "100"}
+    with pytest.raises(ValueError, match="the grid derives drive_frequency, but the record sets it\nremove"):
+        flapwing.run(grid, waveform=record)
 
 
 def test_a_model_runs_with_all_its_parameters():
@@ -98,6 +117,16 @@ def test_sweeps_take_parameters_and_settings(tmp_path):
     np.testing.assert_array_equal(table["lift_mean_mn"], rows["lift_mean_mn"])
     assert "stroke_pp_deg" not in table and table.meta["keywords"] == {"drive_voltage_pp": "80 V", "rtol": 1e-5}
     assert table.meta["solver"]["rtol"] == 1e-5 and "80 V" in table.meta["grid"]
+
+
+def test_settings_of_a_grid_stay_with_another_rtol():
+    for solver in ({"accuracy": 1e-4}, {"atol": 1e-9}, {"rtol": 1e-4}, {}):
+        grid = {"preset": PRESET, "solver": solver, "axes": {"drive_frequency": [100]}}
+        table = flapwing.sweep(grid, rtol=1e-5)
+        rows = flapwing.evaluate(grid, {"wing_length": [0.03]}, rtol=1e-5)
+        assert rows.meta["solver"] == table.meta["solver"]
+        assert rows.meta["solver"]["accuracy"] == pytest.approx(solver.get("accuracy", 1e-2))
+        assert rows.meta["solver"]["atol"] == pytest.approx(solver.get("atol", 1e-7))
 
 
 def test_files_of_such_sweeps_can_be_resumed_and_read(tmp_path):

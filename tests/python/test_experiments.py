@@ -192,6 +192,9 @@ def test_a_row_of_any_kind_is_a_state():
     # What is not known begins at rest, as in batches.
     unknown = {**row, "stroke_rad": np.nan}
     assert flapwing.trajectory(PRESET, cycles=1, samples=4, initial_state=unknown)["stroke_rad"][0] == 0
+    infinite = {name: [np.inf if name == "stroke_rad" else value] for name, value in row.items()}
+    with pytest.raises(ValueError, match="row 0 of `initial_state` has an infinite component\ngive finite numbers"):
+        flapwing.evaluate(PRESET, {"drive_frequency": [105.0]}, initial_state=infinite)
     with pytest.raises(ValueError, match="`initial_state` has 2 rows\nchoose one"):
         flapwing.run(PRESET, initial_state=rows.to_pandas())
 

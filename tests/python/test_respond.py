@@ -69,6 +69,10 @@ def test_designs_of_a_grid_have_a_curve_each():
     assert len(table.verdicts) == 3
     other = flapwing.respond(grid, "drive_voltage_pp")
     assert len(other.verdicts) == 3 and other.meta["parameter"] == "drive_voltage_pp"
+    # A verdict has the number of its design, because excluded designs have no verdicts.
+    some = flapwing.respond({**grid, "where": {"others": "drive_voltage_pp != 60"}}, tolerance=10)
+    assert [verdict.curve for verdict in some.verdicts] == [0, 2] == sorted(set(some["curve"].tolist()))
+    assert [verdict.text for verdict in some.verdicts] == [table.verdicts[i].text for i in (0, 2)]
 
 
 @pytest.mark.parametrize(

@@ -4,7 +4,7 @@ use flap_core::simulate::{SolverSettings, all};
 use flap_sweep::grid;
 use flap_sweep::notation::value::ValueError;
 use flap_sweep::plan::gradient::{Gradient, NoShares};
-use flap_sweep::plan::{ChangeError, Plan, Value};
+use flap_sweep::plan::{ChangeError, Plan, Value, with_rtol};
 
 use crate::fake::{index, plan};
 
@@ -139,4 +139,36 @@ fn derivatives_and_states_are_those_of_models_with_motions() {
     assert_eq!(refused(flag.with_slopes(vec![stiffness])), ChangeError::NoSlope("high".to_owned()));
     let resonant = flies("params.drive_frequency = \"resonance\"\n[resonance]\nfrom = 95\nto = 120");
     assert_eq!(refused(resonant.with_slopes(vec![stiffness])), ChangeError::AtResonance);
+}
+
+/// A changed value has neither the standard error nor the correlations of the earlier value.
+#[test]
+fn changed_values_have_no_standard_errors() {
+    let text = "preset = \"fly\"\n[params]\nwing_area = { value = 5e-5, sd = 1e-6 }\nhinge_stiffness = { value = 1e-6, sd = 1e-7 }\n\
+                [[correlation]]\nbetween = [\"wing_area\", \"hinge_stiffness\"]\ncoefficient = 0.5\n";
+    let (area, stiffness) = (index("wing_area"), index("hinge_stiffness"));
+    let errors = |plan: &Plan| [area, stiffness].map(|parameter| plan.uncertainty().error(parameter));
+    let whole = plan(text);
+    let mut values = whole.point(0).values;
+    let same = whole.clone().of_point(&values);
+    assert_eq!((errors(&same), same.uncertainty().correlations().len()), ([Some(1e-6), Some(1e-7)], 1));
+    values[area] = 6e-5;
+    for changed in [whole.clone().of_point(&values), whole.with_parameter(area, 6e-5).unwrap()] {
+        assert_eq!(errors(&changed), [None, Some(1e-7)]);
+        assert!(changed.uncertainty().correlations().is_empty());
+    }
+}
+
+#[test]
+fn settings_follow_rtol_unless_they_are_set() {
+    let settings =
+        |rtol, atol, accuracy| SolverSettings { rtol, atol, accuracy, ..SolverSettings::default() };
+    for (before, after) in [
+        (settings(1e-6, 1e-8, 1e-3), settings(1e-5, 1e-5 / 100.0, 1000.0 * 1e-5)),
+        (settings(1e-6, 1e-9, 1e-4), settings(1e-5, 1e-9, 1e-4)),
+        (settings(1e-4, 1e-4 / 100.0, 1000.0 * 1e-4), settings(1e-6, 1e-8, 1e-3)),
+        (settings(1e-6, 1e-8, 0.5), settings(1e-9, 1e-9 / 100.0, 0.5)),
+    ] {
+        assert_eq!(with_rtol(before, after.rtol), after);
+    }
 }

@@ -120,3 +120,16 @@ proptest! {
         }
     }
 }
+
+/// Sums near zero have no digits left: zero is exactly zero, for conditions such as `hinge_position >= 0`.
+#[test]
+fn zero_is_zero_on_an_axis() {
+    for range in ["step = 0.001", "n = 12"] {
+        let text =
+            format!("preset = \"fly\"\n[axes]\nhinge_position = {{ from = -0.01, to = 0.001, {range} }}\n");
+        let plan = plan(&text);
+        let values: Vec<f64> =
+            (0..12).map(|point| plan.point(point).values[index("hinge_position")]).collect();
+        assert_eq!(values[9..], [-0.001, 0.0, 0.001], "{range}");
+    }
+}

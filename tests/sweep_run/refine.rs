@@ -10,6 +10,7 @@ use flap_sweep::files::session::Session;
 use flap_sweep::plan::Plan;
 use flap_sweep::refine::replay;
 use flap_sweep::run::Summary;
+use flap_sweep::run::identity::Identity;
 use flap_sweep::table::layout::Layout;
 
 use crate::fake::{Fake, Fault};
@@ -144,4 +145,17 @@ fn shards_contain_no_points_of_a_refinement() {
     let (text, summary) = csv(&plan, &options(2, 100));
     assert_eq!(summary.unwrap().done(), 42);
     assert!(records(&text).all(|row| row.unwrap()[0].parse::<u64>().unwrap() % 3 == 1));
+}
+
+/// Equal indices of added points do not mean equal points.
+#[test]
+fn listed_points_are_those_of_one_refinement() {
+    let identity = |position: f64| {
+        let plan = refined("").with_added(vec![vec![position, 0.0, 0.0]]).unwrap();
+        let last = plan.len() - 1;
+        Identity::of(&plan.with_points(vec![last]).unwrap(), &options(1, 1))
+    };
+    assert_eq!(identity(0.5), identity(0.5));
+    assert_ne!(identity(0.5), identity(1.5));
+    assert_eq!(identity(0.5).differences(&identity(1.5)).len(), 1);
 }

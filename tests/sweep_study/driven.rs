@@ -1,9 +1,19 @@
 //! The peaks of the settled stroke of one design.
 
 use flap_core::num::Backend;
-use flap_core::simulate::{PointRun, SolverSettings, Status, Unfinished, preset};
-use flap_sweep::resonance::driven::{DrivenPeaks, search};
+use flap_core::parameter::Invalid;
+use flap_core::simulate::{PointRun, Simulator, SolverSettings, Status, Unfinished, preset};
+use flap_sweep::resonance::driven::{self, DrivenPeaks};
 use flap_sweep::resonance::{Range, SearchError};
+
+/// The peaks of a design without values that depend on the drive frequency.
+fn search(
+    model: &'static dyn Simulator,
+    run: &PointRun<'_>,
+    range: &Range,
+) -> Result<DrivenPeaks, SearchError> {
+    driven::search(model, run, range, |_| None)
+}
 
 /// The values of a preset with the values of `set`.
 fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
@@ -70,6 +80,32 @@ fn motions_that_do_not_settle_are_named() {
         assert_ne!(gap.status, Status::Periodic);
         assert!(gap.from <= gap.to && gap.from >= 60.0 && gap.to <= 85.0, "{gap:?}");
     }
+}
+
+/// A voltage that rises with the frequency moves the peak; frequencies without a possible voltage are a gap.
+#[test]
+fn values_that_depend_on_the_frequency_are_updated() {
+    let (model, _) = preset("ozaki2018-large").unwrap();
+    let index = |name: &str| model.parameters().iter().position(|known| known.name == name).unwrap();
+    let (frequency, voltage) = (index("drive_frequency"), index("drive_voltage_pp"));
+    let range = Range { from: Some(95.0), to: Some(125.0), tolerance: 0.05, ..Range::default() };
+    let (values, solver) = (values("ozaki2018-large", &[]), SolverSettings::default());
+    let run = PointRun::new(Backend::best(), &solver, &values);
+    let constant = search(model, &run, &range).unwrap();
+    let update = |values: &mut [f64]| {
+        values[voltage] = 80.0 + 4.0 * (values[frequency] - 105.0);
+        (values[frequency] < 97.0).then(|| Invalid::new("too slow"))
+    };
+    let rising = driven::search(model, &run, &range, update).unwrap();
+    let peak = rising.peaks[0];
+    assert!(peak.frequency > constant.peaks[0].frequency + 0.5, "{peak:?}");
+    assert!(rising.gaps[0].status == Status::Invalid && rising.gaps[0].to < 97.0, "{:?}", rising.gaps);
+    let mut values = values.clone();
+    values[frequency] = peak.frequency;
+    assert_eq!(update(&mut values), None);
+    let row = model.run_point(&PointRun::new(Backend::best(), &solver, &values), None);
+    let stroke = model.columns().iter().position(|column| column.name == "stroke_pp_deg").unwrap();
+    assert!((row.measures[stroke] / peak.stroke_pp - 1.0).abs() < 1e-3, "{peak:?}");
 }
 
 #[test]

@@ -8,7 +8,7 @@ use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::{Along, Plan};
 use flap_sweep::run::{Outcome, RowWriter, RunOptions, Summary};
 use flap_sweep::study::response::{BandKind, Curve, Responses, Step, Verdict};
-use flap_sweep::table::layout::Layout;
+use flap_sweep::table::layout::{Cell, Layout};
 
 use crate::support::{bits, column, parameter, plan};
 
@@ -44,7 +44,7 @@ fn follow(plan: &Plan, threads: usize) -> Vec<Curve> {
     }
     let summary = output.finish(Ok(())).expect("memory");
     assert!((0..).zip(&curves).all(|(index, curve)| curve.design.index == index), "in order");
-    let rows: usize = curves.iter().map(|curve| curve.rows(&Layout::of(plan)).count()).sum();
+    let rows: usize = curves.iter().map(|curve| curve.rows(plan, &Layout::of(plan)).count()).sum();
     let lines = sink.target().split(|&byte| byte == b'\n').count() - 1;
     assert_eq!((summary.rows, lines), (rows as u64, rows + 1));
     assert_eq!((summary.ran, summary.is_interrupted()), (plan.len(), false));
@@ -334,4 +334,45 @@ fn a_curve_that_is_stopped_is_not_handed_on() {
     assert_eq!((summary.done(), summary.points, summary.rows), (0, 2, 0));
     assert!(summary.is_interrupted());
     assert_eq!(sink.target().split(|&byte| byte == b'\n').count() - 1, 1, "the header alone");
+}
+
+/// Derived parameters have their values at each step of a curve. Steps with values out of range are invalid.
+#[test]
+fn derived_parameters_follow_the_steps_of_a_curve() {
+    let grid = "preset = \"jafferis2016\"\n[params]\ndrive_voltage_pp = \"80 V\"\n[derived]\n\
+                hinge_stiffness = \"preset.hinge_stiffness * (drive_frequency - 101) / 10\"\n";
+    let derived = plan(grid);
+    let (frequency, hinge) = (parameter(&derived, "drive_frequency"), parameter(&derived, "hinge_stiffness"));
+    let refused = Along::new(derived.clone(), hinge, Some([1e-6, 2e-6, 1e-7]), None, false).err().unwrap();
+    assert!(refused.to_string().contains("`hinge_stiffness` is derived"), "{refused}");
+    let (derived, along) =
+        Along::new(derived, frequency, Some([98.0, 114.0, 4.0]), Some(4.0), false).unwrap();
+    let derived = derived.following(along.clone());
+    let curve = &follow(&derived, 1)[0];
+    assert_eq!(curve.invalid(), None);
+    let layout = Layout::of(&derived);
+    let place = layout.names().iter().position(|name| name == "hinge_stiffness").unwrap();
+    let published = plan("preset = \"jafferis2016\"\n").point(0).values[hinge];
+    for ((cells, row), step) in
+        curve.rows(&derived, &layout).zip(curve.up.iter().chain(curve.down.iter().rev()))
+    {
+        let expected = published * (step.value - 101.0) / 10.0;
+        let Cell::Number(found) = cells[place] else { panic!("a number") };
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} at {} Hz", step.value);
+        assert_eq!(row.status == Status::Invalid, expected < 0.0, "{:?} at {} Hz", row.status, step.value);
+    }
+    let reason = curve.up[0].row.reason.as_deref().unwrap();
+    assert!(reason.starts_with("`hinge_stiffness` is computed as -"), "{reason}");
+    assert_eq!(curve.up[1].row.status, Status::Periodic);
+    let text = verdict(&derived, &along, curve).to_string();
+    assert!(text.contains("at 98 Hz (invalid)"), "{text}");
+    // Without a possible step there is no response.
+    let (never, along) = Along::new(plan(grid), frequency, Some([90.0, 100.0, 2.0]), None, false).unwrap();
+    let never = never.following(along.clone());
+    let curve = &follow(&never, 1)[0];
+    assert!(
+        verdict(&never, &along, curve)
+            .to_string()
+            .starts_with("no response: `hinge_stiffness` is computed as")
+    );
 }

@@ -160,3 +160,13 @@ fn a_map_of_a_vehicle_at_hover_follows_the_inputs() {
     let at_hover = VEHICLE.replace("about =", "total_mass = \"69 mg\"\ntrim = \"hover\"\nabout =");
     assert_eq!(map(&plan(&at_hover), 0.5, 2), map(&plan(VEHICLE), 0.5, 2));
 }
+
+/// A map that ignores formulas says so.
+#[test]
+fn a_map_with_constant_derived_parameters_warns() {
+    let plan = plan(&format!("{VEHICLE}[derived]\nair_density = \"1.2 + 0 * drive_voltage_pp\"\n"));
+    let inputs = vec![inputs(&plan, 0.2).remove(0)];
+    let options = RunOptions::with_threads(NonZeroUsize::new(1));
+    let map = WrenchMap::of(&plan, &plan.point(0).values, inputs, 12, &options, |_| false).unwrap().unwrap();
+    assert!(map.warnings()[0].starts_with("derived parameters ([derived]) are held constant"));
+}

@@ -72,13 +72,15 @@ fn objects(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Fa
     Ok(format!("[\n{}\n]\n", objects.join(",\n")))
 }
 
-/// Returns a cell as JSON: null for an empty or infinite cell.
+/// Returns a cell as JSON: null for an empty or infinite cell. Text such as `007` is no number.
 fn json(cell: &str) -> Value {
     match cell {
-        "" => Value::Null,
+        "" | "inf" | "-inf" | "NaN" => Value::Null,
         "true" => Value::Bool(true),
         "false" => Value::Bool(false),
+        _ if !matches!(serde_json::from_str(cell), Ok(Value::Number(_))) => Value::from(cell),
         _ => {
+            // The standard library reads all digits, which serde_json does not.
             let whole = || cell.parse::<u64>().ok().map(Value::from);
             let number = || cell.parse::<f64>().ok().map(Value::from);
             whole().or_else(number).unwrap_or_else(|| Value::from(cell))
@@ -123,5 +125,7 @@ mod tests {
             [Value::from(12), Value::Null, Value::from("up"), Value::Null]
         );
         assert_eq!(["true", "0.5"].map(json), [Value::from(true), Value::from(0.5)]);
+        assert_eq!(["-1.5e-7", "-0"].map(json), [Value::from(-1.5e-7), Value::from(-0.0)]);
+        assert_eq!(["007", "nan", "1.", "+1"].map(json), ["007", "nan", "1.", "+1"].map(Value::from));
     }
 }

@@ -53,7 +53,7 @@ impl Bar {
             let units = self.units;
             self.aside(|| {
                 console::say(&format!(
-                    "stopping: running {units} have half a second to finish; interrupt flap again to stop it at once"
+                    "stopping: running {units} have 0.4 s to finish; interrupt flap again to stop it at once"
                 ));
             });
         }

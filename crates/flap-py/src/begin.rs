@@ -4,6 +4,7 @@ use flap_core::simulate::Simulator;
 use flap_sweep::notation::nearest;
 use flap_sweep::table::layout::split_unit;
 use numpy::PyReadonlyArray2;
+use numpy::ndarray::ArrayView1;
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -41,13 +42,17 @@ pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult
     Ok(values)
 }
 
-/// Returns the states in the rows of an array. The state is `None` for a row with an unknown component.
-pub(crate) fn rows(begin: &PyReadonlyArray2<'_, f64>) -> Vec<Option<Vec<f64>>> {
-    let rows = begin.as_array();
-    rows.rows()
-        .into_iter()
-        .map(|row| row.iter().all(|y| y.is_finite()).then(|| row.iter().copied().collect()))
-        .collect()
+/// Returns the states in the rows of an array. The state is `None` for a row with an unknown component, which is NaN.
+/// `ValueError` for an infinite component.
+pub(crate) fn rows(begin: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Option<Vec<f64>>>> {
+    let state = |(number, row): (usize, ArrayView1<'_, f64>)| {
+        if row.iter().any(|y| y.is_infinite()) {
+            let message = format!("row {number} of `initial_state` has an infinite component");
+            return Err(PyValueError::new_err(message + "\ngive finite numbers, or nan for a start at rest"));
+        }
+        Ok(row.iter().all(|y| !y.is_nan()).then(|| row.iter().copied().collect()))
+    };
+    begin.as_array().rows().into_iter().enumerate().map(state).collect()
 }
 
 /// Returns the index of a component among the states, and the factor from the unit of its name to the unit of the state.

@@ -65,7 +65,7 @@ pub(crate) fn evaluate<'py>(
         plan = with_slopes(plan, &names)?;
     }
     if let Some(states) = initial_state {
-        plan = plan.begun_at(begin::rows(&states)).map_err(|error| refused(&error))?;
+        plan = plan.begun_at(begin::rows(&states)?).map_err(|error| refused(&error))?;
     }
     if return_states {
         plan = plan.with_states().map_err(|error| refused(&error))?;
@@ -150,8 +150,8 @@ fn with_slopes(plan: Plan, names: &[String]) -> PyResult<Plan> {
     })
 }
 
-/// Returns the exception for columns that a plan rejects.
-fn refused(error: &ChangeError) -> PyErr {
+/// Returns the exception for columns or initial states that a plan rejects.
+pub(crate) fn refused(error: &ChangeError) -> PyErr {
     match error {
         ChangeError::TooManyPoints(_) => PyValueError::new_err("too many points"),
         ChangeError::AtResonance => PyValueError::new_err(

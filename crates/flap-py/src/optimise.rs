@@ -136,7 +136,9 @@ fn into_python<'py>(py: Python<'py>, problem: &Problem, best: &Optimum) -> PyRes
     dict.set_item("is_polished", best.is_polished)?;
     let device = match plan.vehicle() {
         Some(_) => String::new(),
-        None => grid::device(&plan.clone().of_point(&best.values)),
+        None => {
+            grid::device(&plan.clone().of_point(&best.values)).map_err(|error| error::experiment(&error))?
+        }
     };
     dict.set_item("device", device)?;
     Ok(dict)

@@ -3,7 +3,7 @@
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Rows, Simulator};
-use flap_sweep::plan::{Admission, Plan};
+use flap_sweep::plan::Plan;
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -36,15 +36,12 @@ impl Chosen {
         let plan = design::whole(design, keywords)?;
         let index = index(&plan, point)?;
         let values = plan.point(index).values;
-        let invalid = match plan.judge(&values) {
-            Admission::Invalid(invalid) => Some(invalid.to_string()),
-            Admission::Runs | Admission::Excluded(_) => None,
-        };
-        let mut chosen = Chosen { plan, values, sampled: None, invalid };
+        let mut chosen = Chosen { plan, values, sampled: None, invalid: None };
         if let Some(wave) = wave {
             design::check_one_wing(&chosen.plan)?;
             chosen.drive_by(wave, keywords.contains(DRIVE_FREQUENCY)?)?;
         }
+        chosen.invalid = chosen.plan.invalid(&chosen.values).map(|invalid| invalid.to_string());
         Ok(chosen)
     }
 
@@ -128,8 +125,14 @@ impl Chosen {
     /// Replaces the drive or the stroke by samples. The drive period is the duration of the samples, unless the
     /// frequency `is_set`.
     fn drive_by(&mut self, wave: &Wave, is_set: bool) -> PyResult<()> {
+        let mut fixed = Vec::new();
         if !is_set && let Some(index) = self.parameter(DRIVE_FREQUENCY) {
+            if self.plan.derived().parameters().any(|derived| derived == index) {
+                let message = format!("the grid derives {DRIVE_FREQUENCY}, but the record sets it");
+                return Err(PyValueError::new_err(message + "\nremove the formula from `derived`"));
+            }
             self.values[index] = 1.0 / wave.samples.duration();
+            fixed.push(index);
         }
         if wave.is_stroke {
             let Some((mode, amplitude)) =
@@ -142,7 +145,9 @@ impl Chosen {
                 return Err(PyValueError::new_err(message));
             };
             (self.values[mode], self.values[amplitude]) = (1.0, 1.0);
+            fixed.extend([mode, amplitude]);
         }
+        self.plan.derived().fill(&mut self.values, &fixed);
         let experiments = self.plan.simulator().experiments().map_err(|reason| error::unfinished(&reason))?;
         self.sampled = Some(experiments.with_samples(wave.samples.clone()));
         Ok(())

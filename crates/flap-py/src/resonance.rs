@@ -2,10 +2,11 @@
 
 use flap_core::modes::Mode;
 use flap_core::num::Backend;
+use flap_core::parameter::Parameter;
 use flap_core::simulate::PointRun;
 use flap_experiments::free::{self, FreeRequest};
 use flap_sweep::resonance::driven;
-use flap_sweep::resonance::{Range, SearchError};
+use flap_sweep::resonance::{DRIVE_FREQUENCY, Range, SearchError};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
@@ -92,7 +93,10 @@ pub(crate) fn resonance<'py>(
     };
     let found = interruptible(py, |interrupted| {
         let run = PointRun::new(backend, solver, values).until(interrupted);
-        Ok((free::examine(experiments, &run, &request)?, driven::search(simulator, &run, &range)?))
+        let free = free::examine(experiments, &run, &request)?;
+        let fixed: Vec<usize> =
+            Parameter::index(chosen.plan.parameters(), DRIVE_FREQUENCY).into_iter().collect();
+        Ok((free, driven::search(simulator, &run, &range, |values| chosen.plan.update(values, &fixed))?))
     })?;
     let (free, driven) = found.map_err(|reason: SearchError| PyValueError::new_err(reason.to_string()))?;
 

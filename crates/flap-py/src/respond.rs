@@ -19,6 +19,7 @@ const STROKE: &str = "stroke_amplitude_deg";
 /// The verdict on a curve, as a dictionary.
 #[derive(IntoPyObject)]
 struct Judged {
+    curve: u64,
     text: String,
     bands: Vec<Band>,
 }
@@ -33,7 +34,7 @@ struct Band {
 }
 
 impl Judged {
-    fn new(verdict: &Verdict) -> Judged {
+    fn new(curve: u64, verdict: &Verdict) -> Judged {
         let bands = verdict.bands.iter().filter_map(|band| match band.kind {
             BandKind::Bistable { jump } => Some(Band {
                 start: band.range[0],
@@ -42,7 +43,7 @@ impl Judged {
             }),
             BandKind::Irregular { .. } => None,
         });
-        Judged { text: verdict.to_string(), bands: bands.collect() }
+        Judged { curve, text: verdict.to_string(), bands: bands.collect() }
     }
 }
 
@@ -90,7 +91,7 @@ pub(crate) fn respond<'py>(
             for curve in &batch {
                 if let Outcome::Ran(curve) = curve {
                     let verdict = Verdict::new(curve, along, along.parameter(&plan), stroke);
-                    verdicts.push(Judged::new(&verdict));
+                    verdicts.push(Judged::new(curve.design.index, &verdict));
                 }
                 output.write_curve(curve)?;
             }

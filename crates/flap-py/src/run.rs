@@ -7,6 +7,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::evaluate::refused;
 use crate::point::Chosen;
 use crate::records::Wave;
 use crate::watch::interruptible;
@@ -39,11 +40,11 @@ pub(crate) fn run<'py>(
     stroke: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let wave = Wave::of(waveform, stroke, false)?;
-    let mut chosen = Chosen::new(design, keywords, point, wave.as_ref())?;
-    let begin = initial_state.map(|state| begin::state(chosen.plan.simulator(), state)).transpose()?;
-    if begin.is_some() && chosen.plan.resonance().is_some() {
-        chosen = chosen.for_motion(py)?;
+    let chosen = Chosen::new(design, keywords, point, wave.as_ref())?;
+    if initial_state.is_some() && wave.is_none() {
+        chosen.plan.check_motions().map_err(|error| refused(&error))?;
     }
+    let begin = initial_state.map(|state| begin::state(chosen.plan.simulator(), state)).transpose()?;
     let mut row = match &chosen.invalid {
         Some(reason) => Row::invalid(reason),
         None => interruptible(py, |interrupted| {

@@ -1,6 +1,7 @@
 //! Solver settings from keywords.
 
 use flap_core::simulate::{Setting, SettingKind, SolverSettings};
+use flap_sweep::plan::with_rtol;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -40,10 +41,13 @@ impl<'py> Keywords<'py> {
 
     /// Replaces the settings that the call gives. `TypeError` or `ValueError` for a value that a setting cannot have.
     pub(crate) fn apply(&self, settings: &mut SolverSettings) -> PyResult<()> {
-        // The order of the table matters, because rtol determines the default of atol.
+        // The order of the table matters, because rtol determines the defaults of atol and accuracy.
         for Setting { name, kind, .. } in SolverSettings::TABLE {
             let Some((_, value)) = self.0.iter().find(|(given, _)| given == name) else { continue };
             match kind {
+                SettingKind::Number { below, .. } if *name == "rtol" => {
+                    *settings = with_rtol(*settings, tolerance(name, *below, value)?);
+                }
                 SettingKind::Number { below, set, .. } => set(settings, tolerance(name, *below, value)?),
                 SettingKind::Count { set, .. } => set(settings, convert::count(name, value)?),
                 SettingKind::Flag { set, .. } => {

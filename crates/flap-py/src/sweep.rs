@@ -157,9 +157,15 @@ fn work(
         Some(chunks) => fetch(plan, options, &mut output, watch, chunks),
     };
     // Points of a refinement follow from the rows, so they run here.
-    let ended = ended.and_then(|()| match chunks {
-        Some(_) if !output.next_round() => Ok(()),
-        _ => run_rounds(options, &mut output, watch),
+    let ended = ended.and_then(|()| {
+        let is_left = chunks.is_some() && (watch.is_stopped() || output.done() < plan.selected());
+        // A resumed refinement may already have points without rows.
+        let has_round = chunks.is_none() || output.done() < output.plan().selected();
+        if !is_left && (has_round || output.next_round()) {
+            run_rounds(options, &mut output, watch)
+        } else {
+            Ok(())
+        }
     });
     output.finish(ended)
 }

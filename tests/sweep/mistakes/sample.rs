@@ -130,3 +130,14 @@ drive_frequency = { mean = 1, form = 2 }
 "#,
     );
 }
+
+#[test]
+fn a_share_is_no_standard_deviation() {
+    check(
+        "preset = \"fly\"\n[sample]\nmethod = \"random\"\nn = 5\n[sample.parameters]\nhinge_position = { mean = 1, sd = \"5 %\" }\n",
+        r#"
+6:35 |"5 %"| `sd` is in the unit of the parameter, not a share of its value
+  help: write `relative_sd` for a share
+"#,
+    );
+}

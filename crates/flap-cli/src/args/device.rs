@@ -23,7 +23,7 @@ pub(crate) enum DeviceCommand {
     after_help = "Examples:\n  flap device new jafferis2016 > mybee.toml\n  flap run mybee.toml\n  flap device new mybee.toml > copy.toml"
 )]
 pub(crate) struct NewArgs {
-    /// Preset, device file or grid file whose values flap prints
+    /// Preset, device file or grid file whose values flap prints: values before the axes of a grid file are applied
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 }

@@ -48,7 +48,8 @@ impl ChangeArgs {
 /// Options that set the solver.
 #[derive(clap::Args, Default)]
 pub(crate) struct SolverArgs {
-    /// Relative tolerance of the integrator; the absolute tolerance is a hundredth of the relative tolerance
+    /// Relative tolerance of the integrator. Unless the grid file sets atol, the absolute tolerance is a hundredth of
+    /// the relative tolerance
     #[arg(long, value_name = "TOL", value_parser = tolerance)]
     pub(crate) rtol: Option<f64>,
 

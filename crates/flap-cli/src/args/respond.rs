@@ -50,7 +50,7 @@ pub(crate) struct RespondArgs {
         long,
         value_name = "PARAMETER",
         requires_all = ["edge_from", "edge_to"],
-        conflicts_with_all = ["out", "unstable"],
+        conflicts_with_all = ["out", "unstable", "strict"],
         help_heading = EDGES
     )]
     pub(crate) edge: Option<String>,
@@ -74,7 +74,7 @@ pub(crate) struct RespondArgs {
         long,
         value_name = "N",
         value_parser = clap::value_parser!(u32).range(1..=1_000_000),
-        conflicts_with_all = ["out", "unstable", "edge"],
+        conflicts_with_all = ["out", "unstable", "edge", "strict"],
         help_heading = BASINS
     )]
     pub(crate) basins: Option<u32>,
@@ -120,7 +120,7 @@ motion changes by more than a tenth, because the step could contain a narrow bis
 per design. flap prints the summary to stdout, or to stderr if you give `--out -`.
 
 flap writes rows in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, flap waits up to \
-half a second for the curves that are being computed. flap keeps the complete rows and exits with code 130. A second \
+0.4 s for the curves that are being computed. flap keeps the complete rows and exits with code 130. A second \
 Ctrl-C or SIGTERM stops flap at once. FILE.meta.toml, in the folder of FILE, records the options of the command. Until \
 all curves are complete, FILE.journal records the progress. To continue an interrupted command, run the same command \
 again.

@@ -92,33 +92,47 @@ fn search(args: &OptimiseArgs, problem: &Problem) -> Result<Exit, Failure> {
 
 /// Writes the best design as a device file.
 fn write(plan: &Plan, out: &Path, overwrite: bool) -> Result<(), Failure> {
-    let text = grid::device(plan);
+    let text = grid::device(plan)?;
     if console::is_stdout(out) {
         return Err(Failure::usage("--out -: flap already prints the result to stdout").help("name a file"));
     }
     let written = job::make(out, overwrite, |mut file| file.write_all(text.as_bytes()).map(|()| None))?;
     written.map_err(|error: io::Error| Failure::cannot_write(out, &error))?;
-    let options = options(plan.solver());
+    let (options, lost) = options(plan.solver());
     let name = shell_word(&out.display().to_string());
     console::say(&format!("the design is in {}: `flap run {name}{options}` computes its row", out.display()));
+    if !lost.is_empty() {
+        let lost = lost.join(", ");
+        console::say(&format!(
+            "a device has no [solver], so this row is computed with the default of {lost}"
+        ));
+    }
     Ok(())
 }
 
-/// The command-line options for solver settings that differ from the defaults.
-fn options(solver: &SolverSettings) -> String {
-    let usual = SolverSettings::default();
-    let mut options = String::new();
+/// The command-line options for solver settings that differ from the defaults, and the names of such settings without an
+/// option.
+fn options(solver: &SolverSettings) -> (String, Vec<&'static str>) {
+    // `--rtol` also sets the settings that follow it.
+    let usual = SolverSettings::default().with_rtol(solver.rtol);
+    let (mut options, mut lost) = (String::new(), Vec::new());
+    if usual.rtol != SolverSettings::DEFAULT.rtol {
+        let _ = write!(options, " --rtol {}", text::float(usual.rtol));
+    }
     for Setting { name, kind, .. } in SolverSettings::TABLE {
         let value = match kind {
             SettingKind::Number { get, .. } if get(solver) != get(&usual) => text::float(get(solver)),
             SettingKind::Count { get, .. } if get(solver) != get(&usual) => get(solver).to_string(),
+            SettingKind::Flag { get, .. } if get(solver) != get(&usual) => get(solver).to_string(),
             _ => continue,
         };
-        if ["rtol", "accuracy", "settle_tol", "max_cycles"].contains(name) {
+        if ["accuracy", "settle_tol", "max_cycles"].contains(name) {
             let _ = write!(options, " --{} {value}", name.replace('_', "-"));
+        } else {
+            lost.push(*name);
         }
     }
-    options
+    (options, lost)
 }
 
 /// Prints warnings and notes about the result.

@@ -3,16 +3,17 @@
 use std::path::Path;
 
 use flap_core::num::Backend;
-use flap_core::parameter::Parameter;
+use flap_core::parameter::{Invalid, Parameter};
 use flap_core::simulate::{Column, PointRun, Row, Rows, Simulator, never};
 use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::notation::units;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
-use flap_sweep::plan::{Admission, Plan};
+use flap_sweep::plan::{Admission, Plan, with_rtol};
 use flap_sweep::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use flap_sweep::vehicle::BodyRows;
 
+use super::samples::DriveRecord;
 use crate::args::{PointArgs, SolverArgs};
 use crate::console;
 use crate::failure::Failure;
@@ -25,9 +26,9 @@ pub(crate) struct Chosen {
     /// Value of each parameter, in the order of the parameters.
     pub(crate) values: Vec<f64>,
     /// The model with a waveform or stroke from a file, if the command line contains the name of the file.
-    pub(crate) sampled: Option<Box<dyn Simulator>>,
+    sampled: Option<Box<dyn Simulator>>,
     index: u64,
-    /// Indices of the parameters that the command line sets.
+    /// Indices of the parameters that the command line or a record sets.
     set: Vec<usize>,
     /// Indices of the parameters in `set` whose values have a unit.
     set_with_unit: Vec<usize>,
@@ -38,6 +39,15 @@ pub(crate) struct Chosen {
 impl Chosen {
     /// Finds the point that the command line selects.
     pub(crate) fn new(point: &PointArgs, solver: &SolverArgs) -> Result<Chosen, Failure> {
+        Chosen::driven_by(None, point, solver)
+    }
+
+    /// Finds the point that the command line selects, with the waveform or stroke of a record.
+    pub(super) fn driven_by(
+        record: Option<&DriveRecord>,
+        point: &PointArgs,
+        solver: &SolverArgs,
+    ) -> Result<Chosen, Failure> {
         let plan = with_solver(plan(&point.what)?, solver)?;
         if point.point >= plan.len() {
             let PointArgs { what, point: index, .. } = point;
@@ -58,9 +68,16 @@ impl Chosen {
             set.push(index);
             set_with_unit.extend(units::has_unit(value).then_some(index));
         }
-        plan.fill_design(&mut values, &set);
-        plan.derived().fill(&mut values, &set);
-        match plan.judge(&values) {
+        let index = point.point;
+        let mut chosen = Chosen { plan, values, sampled: None, index, set, set_with_unit, found: Vec::new() };
+        if let Some(record) = record {
+            check_one_wing(&chosen.plan, &point.what, &format!("`flap run` with {}", record.option()))?;
+            chosen.apply(record)?;
+        }
+        let Chosen { plan, values, set, .. } = &mut chosen;
+        plan.fill_design(values, set);
+        plan.derived().fill(values, set);
+        match plan.judge(values) {
             Admission::Runs => {}
             Admission::Excluded(unsatisfied) => {
                 let names: Vec<&str> =
@@ -72,11 +89,50 @@ impl Chosen {
             }
             Admission::Invalid(invalid) => return Err(invalid.into()),
         }
-        let index = point.point;
-        let mut chosen = Chosen { plan, values, sampled: None, index, set, set_with_unit, found: Vec::new() };
         chosen.find_resonance()?;
         chosen.find_hover()?;
         Ok(chosen)
+    }
+
+    /// Replaces the drive or the stroke by a record. The drive period is the duration of the record, unless the command
+    /// line sets the drive frequency.
+    fn apply(&mut self, record: &DriveRecord) -> Result<(), Failure> {
+        let parameters = self.plan.parameters();
+        let mut values = Vec::new();
+        let frequency = Parameter::index(parameters, DRIVE_FREQUENCY);
+        if let Some(index) = frequency.filter(|index| !self.set.contains(index)) {
+            if self.plan.derived().parameters().any(|derived| derived == index) {
+                let message = format!("the grid file derives {DRIVE_FREQUENCY}, but the record sets it");
+                let help = format!("remove the formula from [derived], or add --set {DRIVE_FREQUENCY}=...");
+                return Err(Failure::usage(message).help(help));
+            }
+            let value = 1.0 / record.samples.duration();
+            if self.plan.axes().varied().any(|varied| varied == index) {
+                console::say(&format!(
+                    "{DRIVE_FREQUENCY} = {} Hz, from the record, not from the point of the grid",
+                    six_digits(value)
+                ));
+            }
+            values.push((index, value));
+        }
+        if record.is_stroke {
+            let [mode, amplitude] =
+                ["stroke_mode", "stroke_amplitude"].map(|name| Parameter::index(parameters, name));
+            let Some((mode, amplitude)) = mode.zip(amplitude) else {
+                let message =
+                    format!("the stroke of the model {} cannot be prescribed", self.plan.simulator().name());
+                let help = "--stroke requires a model with the parameter stroke_mode";
+                return Err(Failure::usage(message).help(help));
+            };
+            values.extend([(mode, 1.0), (amplitude, 1.0)]);
+        }
+        for (index, value) in values {
+            self.values[index] = value;
+            self.set.push(index);
+            self.set_with_unit.push(index);
+        }
+        self.sampled = Some(self.plan.simulator().experiments()?.with_samples(record.samples.clone()));
+        Ok(())
     }
 
     /// If the drive frequency is the resonance, searches for the resonance.
@@ -137,16 +193,14 @@ impl Chosen {
             .map_or_else(|| self.simulator().run_point(&run, None), |body| body.row_at(&run, None))
     }
 
-    /// Sets the parameter `name`. Returns false if the model does not have the parameter.
-    pub(crate) fn put(&mut self, name: &str, value: f64) -> bool {
-        let index = Parameter::index(self.plan.parameters(), name);
-        if let Some(index) = index {
-            self.values[index] = value;
-        }
-        index.is_some()
+    /// Computes the derived parameters of `values`, in which the drive frequency has changed. Returns the reason if a
+    /// point with these values cannot be run.
+    pub(crate) fn update(&self, values: &mut [f64]) -> Option<Invalid> {
+        let frequency = Parameter::index(self.plan.parameters(), DRIVE_FREQUENCY);
+        self.plan.update(values, &self.set.iter().copied().chain(frequency).collect::<Vec<usize>>())
     }
 
-    /// Returns the indices of the parameters that the command line sets.
+    /// Returns the indices of the parameters that the command line or a record sets.
     pub(crate) fn set_parameters(&self) -> &[usize] {
         &self.set
     }
@@ -197,12 +251,8 @@ pub(super) fn check_one_wing(plan: &Plan, what: &str, command: &str) -> Result<(
 /// Returns the plan with the solver settings of the command line. These settings override the settings of the grid
 /// file.
 pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure> {
-    let mut settings = *plan.solver();
-    if let Some(rtol) = args.rtol {
-        let before = settings.accuracy;
-        settings = settings.with_rtol(rtol);
-        settings.accuracy = settings.accuracy.max(before);
-    }
+    let settings = *plan.solver();
+    let mut settings = args.rtol.map_or(settings, |rtol| with_rtol(settings, rtol));
     settings.accuracy = args.accuracy.unwrap_or(settings.accuracy);
     settings.settle_tol = args.settle_tol.unwrap_or(settings.settle_tol);
     settings.max_cycles = args.max_cycles.unwrap_or(settings.max_cycles);

@@ -15,8 +15,9 @@ use super::gradient::{self, Gradient};
 use super::grid::is_stdin;
 use super::motion::write_motions_file;
 use super::point::{Chosen, check_one_wing, find_parameter};
-use super::{far, outputs, samples};
-use crate::args::{OutputFormat, PointArgs, RunArgs};
+use super::samples::{self, DriveRecord};
+use super::{far, outputs};
+use crate::args::{OutputFormat, PointArgs, RunArgs, SolverArgs};
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
 use crate::print::{self, Keyed};
@@ -25,19 +26,18 @@ use crate::table::{self, Table, six_digits, wrapped};
 pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     let points = args.designs();
     check_designs(&points, args)?;
-    let designs = points.iter().map(|point| Design::of(point, args));
-    let mut designs = designs.collect::<Result<Vec<Design>, Failure>>()?;
     let mut inputs = Inputs::new();
-    for design in &designs {
-        inputs.add_plan(&design.chosen.plan);
-    }
     for record in args.waveform.iter().chain(&args.stroke) {
         inputs.add("the record", record);
     }
     outputs::check_tables(&inputs, [args.trajectory.as_deref()])?;
-    for design in &mut designs {
-        samples::apply(&mut design.chosen, &design.point, args)?;
+    let record = samples::read(args)?;
+    let designs = points.iter().map(|point| Design::of(point, record.as_ref(), args));
+    let designs = designs.collect::<Result<Vec<Design>, Failure>>()?;
+    for design in &designs {
+        inputs.add_plan(&design.chosen.plan);
     }
+    outputs::check_tables(&inputs, [args.trajectory.as_deref()])?;
     if let Some(path) = &args.trajectory {
         trajectories(&designs, path, args)?;
         if args.once || console::is_stdout(path) {
@@ -96,8 +96,8 @@ struct Design {
 }
 
 impl Design {
-    fn of(point: &PointArgs, args: &RunArgs) -> Result<Design, Failure> {
-        let chosen = Chosen::new(point, &args.solver)?;
+    fn of(point: &PointArgs, record: Option<&DriveRecord>, args: &RunArgs) -> Result<Design, Failure> {
+        let chosen = Chosen::driven_by(record, point, &args.solver)?;
         if let Some(option) = of_one_wing(args) {
             check_one_wing(&chosen.plan, &point.what, &format!("`flap run` with {option}"))?;
         }
@@ -179,7 +179,7 @@ fn settle(designs: &[Design], args: &RunArgs) -> Result<Exit, Failure> {
         }
     }
     for (design, _) in designs.iter().zip(&rows).filter(|(_, row)| row.status == Status::Unsettled) {
-        console::say(&longer(design));
+        console::say(&longer(design, args));
     }
     Ok(Exit::Done)
 }
@@ -200,7 +200,7 @@ fn print_rows(designs: &[Design], rows: &[Row], format: OutputFormat) -> Result<
 }
 
 /// Returns a line with the command that runs an unsettled point longer.
-fn longer(design: &Design) -> String {
+fn longer(design: &Design, args: &RunArgs) -> String {
     let cycles = design.chosen.plan.solver().max_cycles;
     let PointArgs { what, point, changes } = &design.point;
     let mut command = format!("flap run {}", shell_word(what));
@@ -209,6 +209,17 @@ fn longer(design: &Design) -> String {
     }
     for (_, name, value) in changes.all() {
         let _ = write!(command, " --set {}", shell_word(&format!("{name}={value}")));
+    }
+    for (option, path) in [("waveform", &args.waveform), ("stroke", &args.stroke)] {
+        if let Some(path) = path {
+            let _ = write!(command, " --{option} {}", shell_word(&path.display().to_string()));
+        }
+    }
+    let SolverArgs { rtol, accuracy, settle_tol, .. } = args.solver;
+    for (option, value) in [("rtol", rtol), ("accuracy", accuracy), ("settle-tol", settle_tol)] {
+        if let Some(value) = value {
+            let _ = write!(command, " --{option} {}", text::float(value));
+        }
     }
     let periods = count(cycles.into(), "drive period");
     let longer = cycles.saturating_mul(10);

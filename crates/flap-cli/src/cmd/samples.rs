@@ -5,13 +5,25 @@ use std::path::Path;
 use flap_core::drive::{Repeat, Samples};
 use flap_sweep::files::record::{self, Record};
 
-use super::point::Chosen;
-use crate::args::{PointArgs, RunArgs};
+use crate::args::RunArgs;
 use crate::console;
 use crate::failure::Failure;
 
-/// Reads the waveform or the stroke that the command line gives, and adds it to the point.
-pub(super) fn apply(chosen: &mut Chosen, point: &PointArgs, args: &RunArgs) -> Result<(), Failure> {
+/// A waveform of the drive, or a prescribed stroke.
+pub(super) struct DriveRecord {
+    pub(super) samples: Samples,
+    pub(super) is_stroke: bool,
+}
+
+impl DriveRecord {
+    /// Returns the option that names the file of the record.
+    pub(super) fn option(&self) -> &'static str {
+        if self.is_stroke { "--stroke" } else { "--waveform" }
+    }
+}
+
+/// Reads the waveform or the stroke that the command line gives.
+pub(super) fn read(args: &RunArgs) -> Result<Option<DriveRecord>, Failure> {
     let repeat = if args.once { Repeat::Once } else { Repeat::Periodic };
     let (path, quantity) = match (&args.waveform, &args.stroke) {
         (Some(path), _) => (path, record::WAVE),
@@ -19,20 +31,12 @@ pub(super) fn apply(chosen: &mut Chosen, point: &PointArgs, args: &RunArgs) -> R
         (None, None) if args.once => {
             return Err(Failure::usage("--once requires --waveform or --stroke"));
         }
-        (None, None) => return Ok(()),
+        (None, None) => return Ok(None),
     };
     let samples = Record::read(path)?.samples(&quantity, repeat)?;
-    warn_of_overshoot(&samples, path, if args.stroke.is_some() { " rad" } else { "" });
-    if point.changes.all().all(|(_, name, _)| name != "drive_frequency") {
-        chosen.put("drive_frequency", 1.0 / samples.duration());
-    }
-    if args.stroke.is_some() && !(chosen.put("stroke_mode", 1.0) && chosen.put("stroke_amplitude", 1.0)) {
-        let message =
-            format!("the stroke of the model {} cannot be prescribed", chosen.plan.simulator().name());
-        return Err(Failure::usage(message).help("--stroke requires a model with the parameter stroke_mode"));
-    }
-    chosen.sampled = Some(chosen.plan.simulator().experiments()?.with_samples(samples));
-    Ok(())
+    let is_stroke = args.stroke.is_some();
+    warn_of_overshoot(&samples, path, if is_stroke { " rad" } else { "" });
+    Ok(Some(DriveRecord { samples, is_stroke }))
 }
 
 /// Largest excess of the spline over the range of the samples without a warning, as a fraction of the range.

@@ -1,6 +1,7 @@
 //! Texts that the user can save: a grid file, a device file, or lines of Python.
 
 use flap_sweep::grid;
+use flap_sweep::plan::Plan;
 use serde::Serialize;
 
 use super::context::AnswerContext;
@@ -12,6 +13,15 @@ use crate::request::{Along, Refused, SaveKind, SaveRequest};
 pub(crate) struct Saved {
     name: &'static str,
     text: String,
+}
+
+/// Returns the design of a plan as a device file.
+fn device(plan: &Plan) -> Result<String, Refused> {
+    grid::device(plan).map_err(|error| Refused::Impossible {
+        error: error.message,
+        help: error.help,
+        parameter: None,
+    })
 }
 
 /// Returns the requested text, which is checked like every grid file.
@@ -29,7 +39,7 @@ pub(crate) fn save(context: &AnswerContext<'_>, request: &SaveRequest) -> Result
             let command = format!("flap respond response.toml --along {name} --out response.csv");
             Saved { name: "response.toml", text: format!("# {command}\n{text}") }
         }
-        (SaveKind::Device, _) => Saved { name: "design.toml", text: grid::device(&plan) },
+        (SaveKind::Device, _) => Saved { name: "design.toml", text: device(&plan)? },
         (SaveKind::Python, None) => Saved { name: "family.py", text: python::sweep(&text)? },
         (SaveKind::Python, Some(Along { name, .. })) => {
             Saved { name: "response.py", text: python::respond(&text, name)? }

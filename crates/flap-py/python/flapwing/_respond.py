@@ -115,7 +115,8 @@ def respond(
             native = _workers.responses(_arguments.executor(client), design, parameter, options, threads, show)
     verdicts = native["meta"]["verdicts"]
     native["meta"]["verdicts"] = [
-        Verdict(verdict["text"], [BistableBand(**band) for band in verdict["bands"]]) for verdict in verdicts
+        Verdict(verdict["text"], [BistableBand(**band) for band in verdict["bands"]], verdict["curve"])
+        for verdict in verdicts
     ]
     return Table._of(native, keywords=keywords)
 

@@ -470,10 +470,14 @@ class Verdict:
         The text of the verdict in one line.
     bands : list of BistableBand
         The bands with hysteresis, in rising order of the parameter. `bands` is empty if the design has no hysteresis.
+    curve : int
+        Number of the design, from 0, as in the column ``curve``. Designs that ``where`` excludes have numbers, but no
+        verdicts.
     """
 
     text: str
     bands: list[BistableBand]
+    curve: int
 
     def __str__(self) -> str:
         return self.text

@@ -238,8 +238,8 @@ class Table:
 
     @property
     def verdicts(self) -> list[Verdict]:
-        """The verdicts on the responses in a table of `respond`: one verdict for each design. `verdicts` is empty for a
-        table that `respond` did not return.
+        """The verdicts on the responses in a table of `respond`: one verdict for each design with rows. `verdicts` is
+        empty for a table that `respond` did not return.
         """
         return list(self.meta.get("verdicts", []))
 

@@ -156,6 +156,7 @@ impl Base {
             set.push((index, entry.key_span.clone()));
             // No value: the resonance is computed later.
             if resonance::is_asked_for(&entry) {
+                self.uncertainty.set(index, None);
                 continue;
             }
             let (number, error) = uncertainty::of_parameter(parameter, &entry, lookup.problems);

@@ -160,13 +160,17 @@ fn read_points<'n>(
     let mut axes: Vec<axes::Placed> = axis.into_iter().collect();
     axes.extend(axes::read(table::find(root, "axes"), &mut lookup));
     axes.extend(axes::read_zip(table::find(root, "zip"), &mut lookup));
-    let means = means(&base, simulator, &axes);
+    let drafts = formula::derived_drafts(table::find(root, "derived"), &mut lookup);
+    let varied = axes.iter().flat_map(|placed| placed.axis.parameters()).map(|(parameter, _)| *parameter);
+    let derived = drafts.iter().map(|(parameter, _)| *parameter);
+    let moved: Vec<usize> =
+        varied.chain(derived).chain(sample::sampled(table::find(root, "sample"), simulator)).collect();
+    let means = means(&base, simulator, &moved);
     let sample = sample::read(table::find(root, "sample"), &base, &means, &mut lookup);
     let (sampled, sample_file) = sample.map_or((None, None), |(placed, file)| (Some(placed), file));
     axes.extend(sampled);
     axes.sort_by_key(|placed| placed.span.start);
     axes::report_repeats(&axes, &set, &mut lookup);
-    let drafts = formula::derived_drafts(table::find(root, "derived"), &mut lookup);
     formula::report_derived_twice(
         &drafts,
         &axes,
@@ -185,6 +189,10 @@ fn read_points<'n>(
     let varied: Vec<usize> = moved.collect();
     let derived: Vec<usize> = drafts.iter().map(|(parameter, _)| *parameter).collect();
     let moved = [varied.as_slice(), &derived].concat();
+    // Standard errors belong to the values of the device, not to the values of axes and formulas.
+    for parameter in &moved {
+        base.uncertainty.set(*parameter, None);
+    }
     let chosen: Vec<usize> =
         set.iter().map(|(parameter, _)| *parameter).chain(moved.iter().copied()).collect();
     let is_set = |parameter: usize| base.values[parameter].given().is_some() || moved.contains(&parameter);
@@ -220,15 +228,13 @@ fn read_points<'n>(
 
 /// Returns the values of parameters that are not sampled. These values are the default means of normal distributions.
 ///
-/// An unset parameter of one wing has the value of all wings, unless an axis varies this value.
-fn means(base: &Base, simulator: &dyn Simulator, axes: &[axes::Placed]) -> Vec<Value> {
-    let is_varied = |parameter: usize| {
-        axes.iter().flat_map(|placed| placed.axis.parameters()).any(|(varied, _)| *varied == parameter)
-    };
+/// An unset parameter of one wing has the value of all wings, unless this value is in `moved`: varied, sampled or
+/// derived.
+fn means(base: &Base, simulator: &dyn Simulator, moved: &[usize]) -> Vec<Value> {
     let mean = |index: usize| {
         let own = base.values[index];
         let shared = of_all_wings(simulator.parameters(), index);
-        let shared = shared.filter(|&shared| own.given().is_none() && !is_varied(shared));
+        let shared = shared.filter(|shared| own.given().is_none() && !moved.contains(shared));
         shared.map_or(own, |shared| base.values[shared])
     };
     (0..base.values.len()).map(mean).collect()

@@ -6,6 +6,8 @@ mod file;
 
 use std::sync::Arc;
 
+use flap_core::parameter::Parameter;
+use flap_core::simulate::Simulator;
 use toml::de::DeInteger;
 
 use super::axes::{self, Placed};
@@ -97,6 +99,14 @@ pub(super) fn read(
         with_units.push(value::has_units(entry.value));
     }
     Some((Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys, with_units }, None))
+}
+
+/// Returns the known parameters in `[sample.parameters]`, without reports of mistakes.
+pub(super) fn sampled(section: Option<&Entry<'_>>, simulator: &dyn Simulator) -> Vec<usize> {
+    let sample = section.and_then(|section| section.value.get_ref().as_table());
+    let parameters = sample.and_then(|sample| sample.get("parameters")?.get_ref().as_table());
+    let names = parameters.into_iter().flat_map(|parameters| parameters.keys());
+    names.filter_map(|name| Parameter::index(simulator.parameters(), name.get_ref())).collect()
 }
 
 /// Returns a sample of copies of the device, which vary in all parameters with standard errors, with the correlations

@@ -74,11 +74,7 @@ fn standard_error(
         problems.report(relative.key_span.clone(), message).help("keep one of them");
         return None;
     }
-    let is_share = entry.value.get_ref().as_str().is_some_and(|text| text.trim_end().ends_with('%'));
-    if absolute.is_some() && is_share {
-        problems
-            .report(entry.value.span(), "`sd` is in the unit of the parameter, not a share of its value")
-            .help("write `relative_sd` for a share");
+    if absolute.is_some() && report_share(entry, problems) {
         return None;
     }
     let unit = if absolute.is_some() { parameter.unit } else { "" };
@@ -91,6 +87,17 @@ fn standard_error(
         format!("`{}` must give a standard error of more than zero, not {}", entry.key, value::shown(error));
     problems.report(entry.value.span(), message).help("leave it out if the value is exact");
     None
+}
+
+/// Reports an `sd` in per cent. Returns true if `sd` is in per cent.
+pub(super) fn report_share(sd: &Entry<'_>, problems: &mut Problems) -> bool {
+    let is_share = sd.value.get_ref().as_str().is_some_and(|text| text.trim_end().ends_with('%'));
+    if is_share {
+        problems
+            .report(sd.value.span(), "`sd` is in the unit of the parameter, not a share of its value")
+            .help("write `relative_sd` for a share");
+    }
+    is_share
 }
 
 /// Adds the correlations of the tables `[[correlation]]`.

@@ -16,6 +16,7 @@ use super::diagnostic::Problems;
 use super::lookup::Lookup;
 use super::table::{self, Entry};
 use super::{uncertainty, value};
+use crate::plan::uncertainty::Correlation;
 use crate::plan::{Robot, Value};
 use crate::resonance::DRIVE_FREQUENCY;
 use crate::vehicle::BodyRows;
@@ -457,6 +458,16 @@ impl Own<'_> {
                     self.problems.report(span.clone(), message).help(help);
                 }
                 _ => {}
+            }
+        }
+        for Correlation { between, coefficient } in design.uncertainty.correlations() {
+            let own = |place: usize| {
+                let target = self.vehicle.own_parameter(index, model.parameters()[place].name)?;
+                self.shared.uncertainty.error(target).map(|_| target)
+            };
+            if let [Some(one), Some(other)] = between.map(own) {
+                let between = [one, other];
+                self.shared.uncertainty.correlate(Correlation { between, coefficient: *coefficient });
             }
         }
         self.shared.devices.extend(design.devices);

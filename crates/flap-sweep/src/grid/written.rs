@@ -4,9 +4,9 @@ use std::fmt::Write as _;
 
 use flap_core::parameter::{Kind, Parameter};
 
-use crate::notation::{text, units};
+use crate::notation::{UserError, text, units};
 use crate::plan::uncertainty::Correlation;
-use crate::plan::{Plan, Value};
+use crate::plan::{Plan, Value, not_allowed};
 
 /// Width of comments, in characters.
 const WIDTH: usize = 110;
@@ -18,21 +18,27 @@ const HEAD: &str = "\
 # Parameters that are not listed here have the values of the preset.
 ";
 
-/// Returns the text of a device with all values of a plan before its axes are applied, or of its first design.
+/// Returns the text of a device with all values of a plan before its axes are applied, or of its first design. Derived
+/// parameters have the values of their formulas.
 ///
 /// Every parameter has a comment with the description and the range of the parameter. The text reads back as the same
 /// numbers, bit for bit.
+///
+/// # Errors
+/// [`UserError`] if a derived parameter depends on an axis or has a value that is not allowed, and if the drive
+/// frequency is the resonance of each design.
 ///
 /// ```
 /// use flap_sweep::grid;
 ///
 /// let models = flap_core::simulate::all();
 /// let plan = grid::parse("small", "preset = \"ozaki2018-small\"", models).unwrap();
-/// let text = grid::device(&plan);
+/// let text = grid::device(&plan).unwrap();
 /// let again = grid::parse("mybee.toml", &text, models).unwrap();
 /// assert_eq!(again.base(), plan.base());
 /// ```
-pub fn device(plan: &Plan) -> String {
+pub fn device(plan: &Plan) -> Result<String, UserError> {
+    let first = plan.point(0).values;
     let model = plan.simulator();
     let mut page = String::new();
     let _ = writeln!(page, "# A device of the model {}: {}", model.name(), model.doc());
@@ -47,8 +53,19 @@ pub fn device(plan: &Plan) -> String {
         }
         page.push('\n');
         page += &comment(parameter);
-        let of_first = plan.in_designs(index).and_then(<[f64]>::first);
-        let value = of_first.map_or(*value, |value| Value::Given(*value));
+        let value = if plan.derived().parameters().any(|derived| derived == index) {
+            Some(derived_value(plan, index, first[index])?)
+        } else if let Some(of_designs) = plan.in_designs(index) {
+            of_designs.first().copied().filter(|value| !value.is_nan())
+        } else if *value == Value::Resonance {
+            let message =
+                format!("`{}` is the resonance of each design, but a device has one value", parameter.name);
+            let help =
+                format!("set {} to a number: `flap test resonance` finds the resonance", parameter.name);
+            return Err(UserError { message, help: Some(help) });
+        } else {
+            value.given()
+        };
         page += &line(parameter, value, plan.uncertainty().error(index));
     }
     for Correlation { between, coefficient } in plan.uncertainty().correlations() {
@@ -59,7 +76,26 @@ pub fn device(plan: &Plan) -> String {
             text::float(*coefficient)
         );
     }
-    page
+    Ok(page)
+}
+
+/// Returns the `value` of a derived parameter, if the value is allowed and the same in all points.
+fn derived_value(plan: &Plan, index: usize, value: f64) -> Result<f64, UserError> {
+    let parameter = &plan.parameters()[index];
+    let mut axes = plan.axes().varied().filter(|varied| plan.design() != Some(*varied));
+    if let Some(axis) = axes.find(|axis| plan.derived().depends(index, *axis)) {
+        let [derived, axis] = [parameter.name, plan.parameters()[axis].name];
+        return Err(UserError {
+            message: format!(
+                "`{derived}` is derived from `{axis}`, which has an axis, but a device has one value"
+            ),
+            help: Some(format!("set {axis} under [params] instead of its axis")),
+        });
+    }
+    match not_allowed(parameter, value) {
+        Some(invalid) => Err(UserError { message: invalid.to_string(), help: None }),
+        None => Ok(value),
+    }
 }
 
 /// Returns description, symbol and range of a parameter.
@@ -96,9 +132,9 @@ fn wrapped(text: &str) -> String {
 }
 
 /// Returns the line of a parameter. The line is a comment if the parameter is not set.
-fn line(parameter: &Parameter, value: Value, error: Option<f64>) -> String {
+fn line(parameter: &Parameter, value: Option<f64>, error: Option<f64>) -> String {
     let Parameter { name, unit, .. } = parameter;
-    let Some(value) = value.given() else {
+    let Some(value) = value else {
         return format!("# {name} = \n");
     };
     let shown = |number: f64| {
@@ -134,7 +170,7 @@ pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
             Value::Follows(_) | Value::Resonance => "not set".to_owned(),
             Value::OfDesign => "a value of each design".to_owned(),
         };
-        let line = line(parameter, Value::Given(rounded(*value)), None);
+        let line = line(parameter, Some(rounded(*value)), None);
         let fit = if parameter.is_fitted && kind == "preset" { ", a fit to one vehicle" } else { "" };
         let _ = writeln!(page, "{:<56}# before: {before}{fit}", line.trim_end());
     }

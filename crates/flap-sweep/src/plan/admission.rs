@@ -26,12 +26,8 @@ impl Plan {
         if !unsatisfied.is_empty() {
             return Admission::Excluded(unsatisfied);
         }
-        let parameters = self.parameters();
-        let mut computed = computed(self).map(|parameter| (&parameters[parameter], values[parameter]));
-        if let Some((parameter, value)) =
-            computed.find(|(parameter, value)| !range(parameter).contains(*value))
-        {
-            return Admission::Invalid(not_allowed(parameter, value));
+        if let Some(invalid) = self.not_allowed(values) {
+            return Admission::Invalid(invalid);
         }
         let unknown = self.conditions().iter().zip(held).find(|(_, holds)| holds.is_none());
         match unknown {
@@ -41,6 +37,27 @@ impl Plan {
             ))),
             None => Admission::Runs,
         }
+    }
+
+    /// Computes the derived parameters from the other `values` of a point, except parameters in `fixed`. Returns the
+    /// reason if the point cannot be run.
+    pub fn update(&self, values: &mut [f64], fixed: &[usize]) -> Option<Invalid> {
+        self.derived().fill(values, fixed);
+        self.invalid(values)
+    }
+
+    /// Returns the reason why a point with these values cannot be run. Conditions exclude no point.
+    pub fn invalid(&self, values: &[f64]) -> Option<Invalid> {
+        match self.judge(values) {
+            Admission::Runs => None,
+            Admission::Excluded(_) => self.not_allowed(values),
+            Admission::Invalid(invalid) => Some(invalid),
+        }
+    }
+
+    /// Returns the error of the first sampled or derived value, or value of a program, that is not allowed.
+    fn not_allowed(&self, values: &[f64]) -> Option<Invalid> {
+        computed(self).find_map(|parameter| not_allowed(&self.parameters()[parameter], values[parameter]))
     }
 }
 
@@ -52,15 +69,18 @@ fn computed(plan: &Plan) -> impl Iterator<Item = usize> + '_ {
     unchecked.map(|(parameter, _)| *parameter).chain(plan.derived().parameters())
 }
 
-/// Returns the error of a computed value that is not allowed.
-fn not_allowed(parameter: &Parameter, value: f64) -> Invalid {
+/// Returns the error of a computed value, if the value is not allowed.
+pub(crate) fn not_allowed(parameter: &Parameter, value: f64) -> Option<Invalid> {
     let Parameter { name, unit, .. } = parameter;
+    if range(parameter).contains(value) {
+        return None;
+    }
     if value.is_nan() {
-        return Invalid::new(format!("`{name}` is computed as not a number"));
+        return Some(Invalid::new(format!("`{name}` is computed as not a number")));
     }
     let value = format!("{} {unit}", text::float(value));
     let allowed = range(parameter).describe();
-    Invalid::new(format!("`{name}` is computed as {}, but must be {allowed}", value.trim_end()))
+    Some(Invalid::new(format!("`{name}` is computed as {}, but must be {allowed}", value.trim_end())))
 }
 
 /// Returns the numbers that a parameter accepts.

@@ -88,7 +88,7 @@ impl Values {
             Values::Linear { from, to, count } => match index {
                 0 => from,
                 _ if index + 1 == count => to,
-                _ => decimal(from + (to - from) * index as f64 / (count - 1) as f64),
+                _ => decimal(from + (to - from) * index as f64 / (count - 1) as f64, from),
             },
             Values::Sampled { ref design, dimension, ref distribution } => {
                 distribution.quantile(design.coordinate(index, dimension))
@@ -99,7 +99,7 @@ impl Values {
                     weights.iter().enumerate().map(|(dimension, weight)| weight * normal(dimension)).sum();
                 mean + sd * number
             }
-            Values::Step { from, step, .. } => decimal(from + step * index as f64),
+            Values::Step { from, step, .. } => decimal(from + step * index as f64, from),
             Values::Log { from, to, count } => match index {
                 0 => from,
                 _ if index + 1 == count => to,
@@ -126,12 +126,14 @@ impl Values {
             return self.get(below);
         }
         match *self {
-            Values::Linear { from, to, count } => decimal(from + (to - from) * position / (count - 1) as f64),
-            Values::Step { from, step, .. } => decimal(from + step * position),
+            Values::Linear { from, to, count } => {
+                decimal(from + (to - from) * position / (count - 1) as f64, from)
+            }
+            Values::Step { from, step, .. } => decimal(from + step * position, from),
             Values::Log { from, to, count } => from * libm::pow(to / from, position / (count - 1) as f64),
             Values::List(_) => {
                 let [low, high] = [self.get(below), self.get(below + 1)];
-                decimal(low + (high - low) * share)
+                decimal(low + (high - low) * share, low)
             }
             Values::Unchecked(_) | Values::Sampled { .. } | Values::Correlated { .. } => self.get(below),
         }
@@ -139,7 +141,12 @@ impl Values {
 }
 
 /// Returns `x` rounded to 15 significant digits. For example, 60e-6 + 10e-6 gives 70e-6 and not 7.000000000000001e-5.
-fn decimal(x: f64) -> f64 {
+///
+/// Next to `from`, the first summand of `x`, a rounding error is returned as zero.
+fn decimal(x: f64, from: f64) -> f64 {
+    if x.abs() < 1e-14 * from.abs() {
+        return 0.0;
+    }
     format!("{x:.14e}").parse().unwrap_or(x)
 }
 

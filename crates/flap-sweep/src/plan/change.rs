@@ -72,6 +72,19 @@ pub enum ChangeError {
     Solver(&'static str),
 }
 
+/// Returns the settings with another relative tolerance. `atol` and `accuracy` keep their values, unless they have the
+/// values that follow the earlier relative tolerance.
+pub fn with_rtol(settings: SolverSettings, rtol: f64) -> SolverSettings {
+    let (usual, next) = (settings.with_rtol(settings.rtol), settings.with_rtol(rtol));
+    let follow = |given: f64, usual: f64, next: f64| if given == usual { next } else { given };
+    SolverSettings {
+        rtol,
+        atol: follow(settings.atol, usual.atol, next.atol),
+        accuracy: follow(settings.accuracy, usual.accuracy, next.accuracy),
+        ..settings
+    }
+}
+
 impl Plan {
     /// Returns the plan with the given tolerances and limits of the solver.
     ///
@@ -90,7 +103,8 @@ impl Plan {
         Ok(self)
     }
 
-    /// Returns the plan with `parameter` set to `value`: a number in SI units, or the index of an option.
+    /// Returns the plan with `parameter` set to `value`: a number in SI units, or the index of an option. The new value
+    /// has no standard error.
     ///
     /// # Errors
     /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if the value comes from an
@@ -104,6 +118,7 @@ impl Plan {
             error: Box::new(error),
         })?;
         self.space.base[parameter] = Value::Given(value);
+        self.space.uncertainty.set(parameter, None);
         self.space.differences.remove(parameter);
         self.space.with_units.note(parameter, Some(false));
         Ok(self)
@@ -318,12 +333,13 @@ impl Plan {
     }
 
     /// The plan of one point. `values` has the value of each parameter, and no parameter is varied or derived. A
-    /// parameter that is NaN is computed from other parameters.
+    /// parameter that is NaN is computed from other parameters. A changed value has no standard error.
     #[must_use]
     pub fn of_point(mut self, values: &[f64]) -> Plan {
-        for (known, value) in self.space.base.iter_mut().zip(values) {
-            if !value.is_nan() {
-                *known = Value::Given(*value);
+        for (parameter, value) in values.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
+            if self.space.base[parameter] != Value::Given(*value) {
+                self.space.base[parameter] = Value::Given(*value);
+                self.space.uncertainty.set(parameter, None);
             }
         }
         self.space.axes = Axes::none();
@@ -374,7 +390,10 @@ impl Plan {
     }
 
     /// Returns the names of the states at which motions can begin.
-    fn check_motions(&self) -> Result<Vec<String>, ChangeError> {
+    ///
+    /// # Errors
+    /// [`ChangeError::AtResonance`], [`ChangeError::OfBody`], [`ChangeError::NoMotions`].
+    pub fn check_motions(&self) -> Result<Vec<String>, ChangeError> {
         let states = self.states_of_motions()?;
         if self.body().is_some() { Err(ChangeError::OfBody) } else { Ok(states) }
     }

@@ -23,6 +23,14 @@ impl Derived {
         self.formulas.iter().map(|(parameter, _)| *parameter)
     }
 
+    /// Returns true if a parameter is computed from `other`, directly or by other formulas.
+    pub fn depends(&self, parameter: usize, other: usize) -> bool {
+        let formula = self.formulas.iter().find(|(derived, _)| *derived == parameter);
+        formula.is_some_and(|(_, formula)| {
+            formula.reads().any(|read| read == other || self.depends(read, other))
+        })
+    }
+
     /// Computes the parameters from the other `values` of a point, except parameters in `except`.
     pub fn fill(&self, values: &mut [f64], except: &[usize]) {
         for &place in &self.order {

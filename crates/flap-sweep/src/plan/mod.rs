@@ -23,8 +23,9 @@ pub mod uncertainty;
 mod value;
 
 pub use admission::Admission;
+pub(crate) use admission::not_allowed;
 pub use axes::Along;
-pub use change::ChangeError;
+pub use change::{ChangeError, with_rtol};
 pub(crate) use robot::Differences;
 pub use robot::Robot;
 pub(crate) use space::Space;

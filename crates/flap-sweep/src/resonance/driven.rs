@@ -3,6 +3,7 @@
 
 use std::f64::consts::PI;
 
+use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, PointRun, Row, Simulator, Status, run_list};
 
 use super::search::{Found, Peaks, Search, Seen};
@@ -53,7 +54,8 @@ pub struct Gap {
 
 /// Computes the drive frequencies at which the stroke of a design point is largest.
 ///
-/// Stroke and pitch of a peak belong to the motion from rest. `range.of` is ignored.
+/// Stroke and pitch of a peak belong to the motion from rest. `range.of` is ignored. `update` computes the values that
+/// depend on the drive frequency, and returns the reason if a point with the new values cannot be run.
 ///
 /// # Errors
 /// - [`SearchError::Unfinished`] if the search is interrupted, or the combination of values is impossible.
@@ -62,6 +64,7 @@ pub fn search(
     model: &'static dyn Simulator,
     run: &PointRun<'_>,
     range: &Range,
+    update: impl Fn(&mut [f64]) -> Option<Invalid>,
 ) -> Result<DrivenPeaks, SearchError> {
     let PointRun { backend, solver, values, interrupted } = *run;
     let tolerance = range.tolerance;
@@ -79,11 +82,16 @@ pub fn search(
     let pitch = pitch.ok_or_else(|| lacks("measures no pitch"))?;
     let mut design = Search::new(&target, Point::at_rest(0, values.to_vec()), Peaks::ALL);
     loop {
-        let probes = design.probes();
+        let mut probes = design.probes();
         if probes.is_empty() {
             break;
         }
-        design.take(run_list(model, backend, solver, probes, interrupted)?);
+        let invalid: Vec<_> = probes.iter_mut().map(|probe| update(&mut probe.values)).collect();
+        let possible = probes.into_iter().zip(&invalid).filter(|(_, invalid)| invalid.is_none());
+        let possible = possible.map(|(probe, _)| probe).collect();
+        let mut rows = run_list(model, backend, solver, possible, interrupted)?.into_iter();
+        let row = |invalid: Option<Invalid>| invalid.map(Row::invalid).or_else(|| rows.next());
+        design.take(invalid.into_iter().filter_map(row).collect());
     }
     let (found, seen) = design.into_peaks()?;
     Ok(peaks(&found, &seen, tolerance, [target.objective, pitch]))

@@ -8,6 +8,7 @@ use xxhash_rust::xxh3::xxh3_64;
 
 use super::RunOptions;
 use crate::notation::text;
+use crate::plan::selection::Selection;
 use crate::plan::{Along, Plan, PointsFile, Source};
 
 /// Returns the build of flap: a hash of the sources that determine the bytes of rows, in hexadecimal digits.
@@ -55,7 +56,7 @@ impl Identity {
             grid: text::hash(&plan.source().text),
             devices: devices(plan.devices()),
             points_file: plan.points_file().map(PointsFile::hash),
-            selection: plan.selection().to_string(),
+            selection: selection(plan),
             followed: plan.followed().map(|along| followed(plan, along)),
             solver: *plan.solver(),
         }
@@ -109,6 +110,16 @@ impl Identity {
 pub(crate) fn devices(devices: &[Source]) -> Option<String> {
     let hashes: Vec<String> = devices.iter().map(|device| text::hash(&device.text)).collect();
     (!hashes.is_empty()).then(|| hashes.join(" "))
+}
+
+/// Returns a description of the selected points. Listed points may be points that a refinement added.
+fn selection(plan: &Plan) -> String {
+    let selection = plan.selection().to_string();
+    if !matches!(plan.selection(), Selection::Listed(_)) || plan.added().is_empty() {
+        return selection;
+    }
+    let bytes: Vec<u8> = plan.added().iter().flatten().copied().flat_map(f64::to_le_bytes).collect();
+    format!("{selection}, {} added points ({:016x})", plan.added().len(), xxh3_64(&bytes))
 }
 
 /// Returns a description of the followed parameter.

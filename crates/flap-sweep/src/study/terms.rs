@@ -72,8 +72,8 @@ impl Effect {
 /// Returns the effect of each term on the design of `run`. Each effect is for a change of one term alone.
 ///
 /// A term that the design leaves out is switched on with a typical size. A term that the design has is switched off.
-/// Derived parameters of the plan are updated.
-pub fn effects(plan: &Plan, run: &PointRun<'_>) -> Vec<Effect> {
+/// Derived parameters of the plan are updated, except parameters in `fixed`, which have their own values.
+pub fn effects(plan: &Plan, run: &PointRun<'_>, fixed: &[usize]) -> Vec<Effect> {
     let simulator = plan.robot().model();
     let known = TERMS.iter().filter(|term| term.models.contains(&simulator.name()));
     let changes = known.filter_map(|term| {
@@ -87,7 +87,7 @@ pub fn effects(plan: &Plan, run: &PointRun<'_>) -> Vec<Effect> {
         .map(|(parameter, before, after)| {
             let mut values = run.values.to_vec();
             values[parameter] = after;
-            plan.derived().fill(&mut values, &[parameter]);
+            plan.derived().fill(&mut values, &[fixed, &[parameter]].concat());
             let row = simulator.run_point(&PointRun { values: &values, ..*run }, None);
             Effect { parameter, before, after, row }
         })

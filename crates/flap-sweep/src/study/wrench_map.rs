@@ -170,6 +170,8 @@ pub struct WrenchMap {
     pub unused: Vec<(Status, usize)>,
     /// Largest magnitude of the Floquet multipliers of the rows; NaN if unknown.
     pub floquet_max: f64,
+    /// True if the plan has derived parameters, which have the values of the point in all rows.
+    has_derived: bool,
 }
 
 impl WrenchMap {
@@ -199,6 +201,7 @@ impl WrenchMap {
         let places = places(plan.vehicle().ok_or(WrenchMapError::NoVehicle)?);
         check(plan, &inputs, samples)?;
         let axis = sampled(&inputs, samples);
+        let has_derived = plan.derived().parameters().next().is_some();
         let plan = plan.clone().of_point(values).without_hover().with_measures(Vec::new());
         let plan = plan.crossed_with(axis.clone())?;
         let mut run = rows(&plan, options, 0);
@@ -233,7 +236,7 @@ impl WrenchMap {
         let wrenches: Vec<[f64; 6]> = periodic.iter().map(wrench).collect();
         let floquet_max = periodic.iter().map(|(_, row)| row.floquet_max).fold(f64::NAN, f64::max);
         WrenchMap::fitted_to(inputs, &points, &wrenches)
-            .map(|map| Some(WrenchMap { unused, floquet_max, ..map }))
+            .map(|map| Some(WrenchMap { unused, floquet_max, has_derived, ..map }))
             .ok_or(WrenchMapError::Undetermined)
     }
 
@@ -251,6 +254,7 @@ impl WrenchMap {
             left_out: tested.len(),
             unused: Vec::new(),
             floquet_max: f64::NAN,
+            has_derived: false,
         };
         let lines: Vec<DVector<f64>> = fitted.iter().map(|&place| map.monomials(&points[place])).collect();
         let matrix = DMatrix::from_fn(fitted.len(), count, |i, j| lines[i][j]);
@@ -327,6 +331,9 @@ impl WrenchMap {
     /// Returns warnings about the map: rows that are not used, poor components, a steep response, inputs without effect.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
+        if self.has_derived {
+            warnings.push("derived parameters ([derived]) are held constant while inputs change".to_owned());
+        }
         let unused: usize = self.unused.iter().map(|(_, rows)| rows).sum();
         if unused > 0 {
             warnings.push(format!(

@@ -1,9 +1,10 @@
 //! Basins of attraction in bistable bands, for `flap respond --basins`.
 
+use flap_core::parameter::Parameter;
 use flap_core::simulate::never;
 use flap_sweep::notation::text;
 use flap_sweep::notation::units::prefixed;
-use flap_sweep::plan::{Along, Plan};
+use flap_sweep::plan::Plan;
 use flap_sweep::run::{Outcome, RunOptions};
 use flap_sweep::study::response::{Basin, Curve, Responses, Starts};
 
@@ -24,10 +25,15 @@ pub(super) fn run(plan: &Plan, starts: Starts, args: &RespondArgs) -> Result<Exi
         let Outcome::Ran(curve) = outcome? else { continue };
         let basins = responses.basins(&curve, starts, &never);
         let basins = basins.map_err(|error| Failure::usage(error.to_string()))?;
-        if args.format == OutputFormat::Table {
-            console::results(&table(plan, along, &curve, &basins))?;
-        } else {
-            rows.extend(basins.iter().map(|basin| cells(plan, &curve, basin)));
+        let design = design(plan, &curve);
+        match (args.format, no_basin(along.parameter(plan), &curve, &basins)) {
+            (OutputFormat::Table, Some(none)) => console::results(&format!("{design}{none}\n"))?,
+            (OutputFormat::Table, None) => {
+                let head = if design.is_empty() { "" } else { &format!("{}\n", design.trim_end()) };
+                console::results(&format!("{head}{}", table(along.parameter(plan), &basins)))?;
+            }
+            (_, Some(none)) => console::say(&format!("{design}{none}")),
+            (_, None) => rows.extend(basins.iter().map(|basin| cells(plan, &curve, basin))),
         }
     }
     if args.format != OutputFormat::Table {
@@ -42,25 +48,30 @@ pub(super) fn run(plan: &Plan, starts: Starts, args: &RespondArgs) -> Result<Exi
     Ok(Exit::Done)
 }
 
-/// Returns the basins of a design as a table for a terminal.
-fn table(plan: &Plan, along: &Along, curve: &Curve, basins: &[Basin]) -> String {
+/// Returns the parameters that distinguish a design from the other designs, followed by a colon.
+pub(super) fn design(plan: &Plan, curve: &Curve) -> String {
     let varied = plan.axes().varied();
     let varied = varied.map(|index| assignment(&plan.parameters()[index], curve.design.values[index]));
     let design = varied.collect::<Vec<_>>().join(", ");
-    let before = |text: &str| if design.is_empty() { String::new() } else { format!("{design}:{text}") };
-    let parameter = along.parameter(plan);
+    if design.is_empty() { design } else { design + ": " }
+}
+
+/// Returns the reason if a design has no basins.
+fn no_basin(parameter: &Parameter<'_>, curve: &Curve, basins: &[Basin]) -> Option<String> {
     if let Some(reason) = curve.invalid() {
-        return format!("{}no response: {reason}\n", before(" "));
+        return Some(format!("no response: {reason}"));
     }
-    if basins.is_empty() {
-        return format!("{}no value of {} with two stable orbits\n", before(" "), parameter.name);
-    }
+    basins.is_empty().then(|| format!("no value of {} with two stable orbits", parameter.name))
+}
+
+/// Returns the basins of a design as a table for a terminal.
+fn table(parameter: &Parameter<'_>, basins: &[Basin]) -> String {
     let mut table = Table::with_names([parameter.name, "up", "down", "other"].map(str::to_owned).into());
     for basin in basins {
         let shares = basin.shares().map(|[share, error]| percent(share, error));
         table.row([vec![prefixed(basin.value, parameter.unit)], shares.to_vec()].concat());
     }
-    before("\n") + &table.text_within(console::width())
+    table.text_within(console::width())
 }
 
 /// Returns a percentage with its standard error, such as `61.5 ± 2.4 %`.

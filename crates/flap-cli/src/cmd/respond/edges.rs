@@ -9,6 +9,7 @@ use flap_sweep::run::{Outcome, RunOptions};
 use flap_sweep::study::response::{Curve, Edge, EdgeMark, EdgeRange, Edges, Responses};
 use flap_sweep::table::layout::Cell;
 
+use super::basins::design;
 use crate::args::{OutputFormat, RespondArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -31,7 +32,7 @@ pub(super) fn run(plan: &Plan, second: &EdgeRange, args: &RespondArgs) -> Result
         let edges = responses.edges(&curve, second, &never);
         for value in &edges.missed {
             let place = output.value(along.parameter, *value);
-            let design = output.design(&curve);
+            let design = design(plan, &curve);
             console::say(&format!("{design}no edge was found at {place}, where a band ends"));
         }
         let none = output.no_edge(&curve, &edges);
@@ -71,18 +72,9 @@ impl Output<'_> {
         prefixed(value, self.plan.parameters()[parameter].unit)
     }
 
-    /// Returns the parameters that distinguish a design from the other designs, followed by a colon.
-    fn design(&self, curve: &Curve) -> String {
-        let varied = self.plan.axes().varied();
-        let assignments: Vec<String> = varied
-            .map(|index| assignment(&self.plan.parameters()[index], curve.design.values[index]))
-            .collect();
-        if assignments.is_empty() { String::new() } else { format!("{}: ", assignments.join(", ")) }
-    }
-
     /// Returns a line of text about a design without edges.
     fn no_edge(&self, curve: &Curve, edges: &Edges) -> Option<String> {
-        let design = self.design(curve);
+        let design = design(self.plan, curve);
         if let Some(reason) = curve.invalid() {
             return Some(format!("{design}no response: {reason}"));
         }
@@ -102,7 +94,7 @@ impl Output<'_> {
 
     /// Returns the edges of a design for a terminal: a line and a table for each edge.
     fn text(&self, curve: &Curve, edges: &[Edge]) -> String {
-        let design = self.design(curve);
+        let design = design(self.plan, curve);
         let edge = |edge| {
             let verdict = Edge::verdict(edge, self.plan, self.along, self.second);
             format!("{design}{verdict}\n\n{}", self.table(edge))

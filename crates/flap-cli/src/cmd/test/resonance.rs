@@ -37,7 +37,7 @@ pub(super) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     };
     let range = Range { from: args.from, to: args.to, tolerance: args.tolerance, ..Range::default() };
     let free = free::examine(experiments, &chosen.run(), &request)?;
-    let driven = driven::search(simulator, &chosen.run(), &range)?;
+    let driven = driven::search(simulator, &chosen.run(), &range, |values| chosen.update(values))?;
 
     let mut lines: Vec<Line> = Vec::new();
     for mode in &modes {

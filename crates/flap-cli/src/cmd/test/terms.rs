@@ -46,7 +46,7 @@ pub(super) fn run(args: &TermsArgs) -> Result<Exit, Failure> {
             Some((place, *column, *header))
         })
         .collect();
-    let found = effects(plan, &run);
+    let found = effects(plan, &run, chosen.set_parameters());
     if found.is_empty() {
         return Err(Failure::usage(format!("the model {} has no terms in flap's list", simulator.name()))
             .help("`flap test terms` supports the models bimorph, direct-drive and four-bar"));

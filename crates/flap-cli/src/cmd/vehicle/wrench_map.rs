@@ -28,9 +28,6 @@ const NAMES: [&str; 6] = ["section", "name", "unit", "from", "to", "count"];
 
 pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Result<Exit, Failure> {
     let inputs = inputs(args, chosen, vehicle)?;
-    if chosen.plan.derived().parameters().next().is_some() {
-        console::warn("derived parameters ([derived]) are held constant while inputs change");
-    }
     let options = RunOptions::with_threads(args.threads);
     let stop = system::stop();
     let mut bar = Bar::new("rows");

@@ -5,7 +5,7 @@ use toml::de::DeValue;
 
 use crate::grid::diagnostic::Problems;
 use crate::grid::table::{self, Entry};
-use crate::grid::{axes, value};
+use crate::grid::{axes, uncertainty, value};
 use crate::plan::Value;
 use crate::plan::axes::Values;
 use crate::plan::sample::Distribution;
@@ -133,6 +133,9 @@ impl Reader<'_, '_> {
                 return None;
             }
         };
+        if unit.is_some() && uncertainty::report_share(entry, self.problems) {
+            return None;
+        }
         let number = value::quantity(entry.key, unit.unwrap_or_default(), entry.value, self.problems)?;
         let sd = if unit.is_some() { number } else { number * mean.abs() };
         if sd > 0.0 && sd.is_finite() {

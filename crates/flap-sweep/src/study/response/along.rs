@@ -34,7 +34,7 @@ impl Along {
     /// # Errors
     /// [`AlongError`] in one of the following cases:
     ///
-    /// - The parameter is a choice.
+    /// - The parameter is a choice, or derived.
     /// - The parameter is varied together with other parameters.
     /// - The parameter has neither an axis nor steps.
     /// - The parameter has fewer than two values.
@@ -49,6 +49,13 @@ impl Along {
         let name = &*name.to_owned();
         if let Kind::Choice(_) = kind {
             return Err(AlongError::new(format!("`{name}` is a choice and cannot rise and fall"), ""));
+        }
+        if plan.derived().parameters().any(|derived| derived == parameter) {
+            let message = format!("`{name}` is derived from other parameters and cannot rise and fall");
+            return Err(AlongError::new(
+                message,
+                "remove its formula from [derived], or follow another parameter",
+            ));
         }
         let (plan, axis) = plan.without_axis(parameter);
         if plan.axes().varied().any(|varied| varied == parameter) {

@@ -143,6 +143,9 @@ impl Branch<'_> {
     /// Returns the motion over one drive period, from a position on the branch.
     fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
         let values = self.along.values_at(self.plan, self.design, self.value(place));
+        if let Some(invalid) = self.plan.invalid(&values) {
+            return Err(invalid.into());
+        }
         let state = self.state(place);
         self.plan
             .simulator()

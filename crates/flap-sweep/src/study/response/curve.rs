@@ -3,7 +3,7 @@
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status};
 
-use crate::plan::Along;
+use crate::plan::{Along, Plan};
 use crate::table::layout::{Cell, Layout, Place};
 
 /// A motion on a curve.
@@ -43,24 +43,31 @@ impl Curve {
         Curve { design, down: up.clone(), up, unstable: Vec::new() }
     }
 
-    /// Returns the reason why the design has no response, if the combination of its parameters is impossible.
+    /// Returns the reason why the design has no response, if the combination of its parameters is impossible at every
+    /// value of the followed parameter.
     pub fn invalid(&self) -> Option<&str> {
-        let first = &self.up.first()?.row;
-        if first.status == Status::Invalid { first.reason.as_deref() } else { None }
+        let all = self.up.iter().all(|step| step.row.status == Status::Invalid);
+        self.up.first().filter(|_| all)?.row.reason.as_deref()
     }
 
-    /// Returns the motions with the cells of the columns of `layout`.
+    /// Returns the motions with the cells of the columns of `layout`, the layout of `plan`. Derived parameters have
+    /// their values at each motion.
     ///
     /// The upward branch comes first in ascending order, then the downward branch in descending order, then the
     /// unstable orbits.
-    pub fn rows<'p>(&self, layout: &Layout<'p>) -> impl Iterator<Item = (Vec<Cell<'p>>, &Row)> {
+    pub fn rows<'p>(&self, plan: &Plan, layout: &Layout<'p>) -> impl Iterator<Item = (Vec<Cell<'p>>, &Row)> {
         let bistable = self.bistable();
         let up = self.up.iter().zip(bistable.clone()).map(|(step, bistable)| ("up", step, bistable));
         let down = self.down.iter().zip(bistable).rev().map(|(step, bistable)| ("down", step, bistable));
         let unstable = self.unstable.iter().map(|step| ("unstable", step, None));
-        up.chain(down).chain(unstable).map(|(branch, Step { value, row }, bistable)| {
+        up.chain(down).chain(unstable).map(move |(branch, Step { value, row }, bistable)| {
             let place = Place { branch, value: *value, bistable };
-            (layout.cells_at(&self.design, Some(place), row), row)
+            let values = match plan.followed() {
+                Some(along) => along.values_at(plan, &self.design, *value),
+                None => self.design.values.clone(),
+            };
+            let point = Point::at_rest(self.design.index, values);
+            (layout.cells_at(&point, Some(place), row), row)
         })
     }
 

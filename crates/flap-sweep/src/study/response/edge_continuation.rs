@@ -199,6 +199,9 @@ impl Plane<'_> {
     /// Returns the residuals of the equations at a point of the edge, with the drive period that begins at this point.
     fn residual(&self, place: &DVector<f64>) -> Result<(DVector<f64>, Period), EdgeEnd> {
         let values = self.parameter_values(place);
+        if let Some(invalid) = self.plan.invalid(&values) {
+            return Err(EdgeEnd::Unfinished(invalid.into()));
+        }
         let run = PointRun::new(self.backend, &self.solver, &values).until(self.interrupted);
         let period = (self.plan.simulator().motions())
             .and_then(|motions| motions.period(&run, &self.state(place)))

@@ -131,8 +131,9 @@ impl Interval {
     }
 }
 
-impl PointSequence for Follow<'_> {
-    fn probes(&mut self) -> Vec<Point> {
+impl Follow<'_> {
+    /// Returns the points of the stage, including points that cannot be run.
+    fn points(&self) -> Vec<Point> {
         match &self.stage {
             Stage::Steps => {
                 let Some([up, down]) = self.next_values() else { return Vec::new() };
@@ -148,9 +149,26 @@ impl PointSequence for Follow<'_> {
             Stage::Done => Vec::new(),
         }
     }
+}
 
+impl PointSequence for Follow<'_> {
+    fn probes(&mut self) -> Vec<Point> {
+        loop {
+            let points = self.points();
+            let possible: Vec<Point> =
+                points.iter().filter(|point| self.plan.invalid(&point.values).is_none()).cloned().collect();
+            if points.is_empty() || !possible.is_empty() {
+                return possible;
+            }
+            self.take(Vec::new());
+        }
+    }
+
+    /// `rows` has no rows for points that cannot be run.
     fn take(&mut self, rows: Vec<Row>) {
         let mut rows = rows.into_iter();
+        let row = |point: &Point| self.plan.invalid(&point.values).map(Row::invalid).or_else(|| rows.next());
+        let mut rows = self.points().iter().map_while(row).collect::<Vec<Row>>().into_iter();
         match std::mem::replace(&mut self.stage, Stage::Done) {
             Stage::Steps => {
                 let Some([up, down]) = self.next_values() else { return };

@@ -104,7 +104,7 @@ impl RowWriter<'_> {
     pub fn write_curve(&mut self, outcome: &Outcome<Curve>) -> Result<(), RunError> {
         match outcome {
             Outcome::Ran(curve) => {
-                let rows: Vec<_> = curve.rows(self.layout()).collect();
+                let rows: Vec<_> = curve.rows(self.plan(), self.layout()).collect();
                 self.write_rows(curve.design.index, rows)
             }
             Outcome::Excluded(unsatisfied) => self.exclude(unsatisfied),
