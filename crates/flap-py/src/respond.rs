@@ -1,11 +1,13 @@
 //! Follows responses while a parameter rises and falls.
 
+use std::ffi::CString;
+
 use flap_core::parameter::{Kind, Parameter};
 use flap_sweep::plan::{Along, Plan};
 use flap_sweep::run::{Outcome, RowWriter, Summary};
 use flap_sweep::study::response::{AlongError, BandKind, EdgeRange, Edges, Responses, Verdict};
 use flap_sweep::table::layout::Layout;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -193,7 +195,7 @@ pub(crate) fn edges<'py>(
     let followed = plan.followed().zip(Responses::of(&plan));
     let (along, responses) = followed.ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;
     let mut columns = Columns::new(Edges::columns(&plan, along, &second));
-    let mut lines = Vec::new();
+    let (mut lines, mut missed) = (Vec::new(), Vec::new());
     let ran = interruptible(py, |interrupted| {
         let mut run = responses.curves(&options, 0);
         while let Some(batch) = run.next_batch()? {
@@ -201,6 +203,7 @@ pub(crate) fn edges<'py>(
                 let Outcome::Ran(curve) = curve else { continue };
                 let edges = responses.edges(curve, &second, interrupted);
                 lines.extend(edges.edges.iter().map(|edge| edge.verdict(&plan, along, &second)));
+                missed.extend(edges.missed.iter().map(|value| (curve.design.index, *value)));
                 edges.rows(&plan, &curve.design).iter().for_each(|row| columns.push(row));
             }
             if interrupted() {
@@ -210,6 +213,10 @@ pub(crate) fn edges<'py>(
         Ok(())
     })?;
     ran.map_err(|error| error::run(&error))?;
+    for (design, value) in missed {
+        let text = format!("design {design}: no edge was found at {first} = {value}, where a band ends");
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, 2)?;
+    }
     let meta = sweep::meta(py, &plan, &options)?;
     meta.set_item("second_parameter", plan.parameters()[index].name)?;
     meta.set_item("edges", lines)?;

@@ -62,7 +62,8 @@ fn hinge() -> Vec<Claim> {
             "falls",
         )
         .holds(
-            l_50 < l_30 && lifts.windows(2).filter(|pair| pair[0].0 >= best).all(|pair| pair[1].1 < pair[0].1),
+            l_50 < l_30
+                && lifts.windows(2).filter(|pair| pair[0].0 >= best).all(|pair| pair[1].1 < pair[0].1),
             format!(
                 "lift {l_30:.2}, {l_50:.2}, {l_80:.2} and {l_120:.2} mN at a hinge stiffness of 30, \
                      50, 80 and 120 mN·mm. The lift is largest at a hinge stiffness of {best:.0} mN·mm"

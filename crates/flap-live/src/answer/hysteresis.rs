@@ -52,7 +52,7 @@ pub(crate) fn hysteresis(
         for outcome in &batch {
             output.write_curve(outcome).map_err(|error| failed(&error))?;
             if let Outcome::Ran(curve) = outcome {
-                states.extend(curve.rows(&layout).map(|(_, row)| row.state.clone()));
+                states.extend(curve.rows(&plan, &layout).map(|(_, row)| row.state.clone()));
             }
         }
     }

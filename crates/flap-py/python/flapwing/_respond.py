@@ -175,7 +175,7 @@ def edges(
         `edge` (number of the edge), and `kind` (``"fold"``, ``"period_doubling"`` or ``"torus"``). The remaining
         columns of the table are `mark` (``"cusp"``, ``"turn"`` or empty), the two followed parameters, `floquet_max`,
         and the measures. ``meta["edges"]`` has a summary of each edge in one line. A design without hysteresis has no
-        rows.
+        rows. A warning names each end of a band at which no edge was found.
 
     Raises
     ------
