@@ -4,6 +4,7 @@ import flapwing
 import numpy as np
 import pytest
 from fits import FREQUENCY, PRESET, TRUE, TRUTH, readings
+from flapwing.fitting import _fit
 
 #: The true parameters without the hinge stiffness.
 BESIDE = {name: value for name, value in TRUTH.items() if name != "hinge_stiffness"}
@@ -122,6 +123,15 @@ def test_errors_that_are_not_known_are_estimated():
     assert "estimated from the residuals" in str(result)
     for name, value in TRUTH.items():
         assert abs(result.estimates[name].value - value) < 4 * result.estimates[name].error
+
+
+def test_intervals_belong_to_the_last_standard_errors(monkeypatch):
+    """The first guess of the standard error is about three times the noise."""
+    monkeypatch.setattr(_fit, "_ROUNDS", 1)
+    result = flapwing.fit(PRESET, readings(noise=0.01), ["hinge_stiffness"], starts=1, **BESIDE)
+    one = result.estimates["hinge_stiffness"]
+    assert result.goodness.chi_square == pytest.approx(29, rel=0.01)
+    assert one.high - one.low == pytest.approx(2 * 2.0452 * one.error, rel=0.05)
 
 
 def test_outliers_count_less_with_a_robust_loss():

@@ -22,7 +22,7 @@ from ._solution import Effort, Estimate, Unsettled
 from ._spread import new_spreads, spreads
 
 #: Largest number of rounds in which standard errors and spreads that depend on the fit are updated.
-_ROUNDS = 4
+_ROUNDS = 10
 
 
 def fit(
@@ -196,22 +196,20 @@ def _settle(
     """Run the last search of a fit. The search is repeated until the standard errors and spreads before and after the
     search agree. Readings without a settled motion are left out.
     """
-    found = best
+    found = _search.polish(model, target, best.x)
     for _ in range(_ROUNDS):
-        found = _search.polish(model, target, found.x)
         answer = model.at([found.x], rtol=FINE)[0]
         used = target.used & np.isfinite(answer.values)
         _search.new_guesses(sets, target, used, answer, len(model.space), guesses)
         sigma = _search.sigmas(sets, answer.values, guesses)
-        before, beside = target, model.space.spreads
-        target = Target(target.measured, sigma, used, target.loss)
-        new = new_spreads(model.space, target, found.x, answer)
-        is_same = bool(np.allclose(sigma, before.sigma, rtol=0.01) and (used == before.used).all())
-        if is_same and np.allclose(list(new.values()), list(beside.values()), rtol=0.01, atol=0.0):
-            target = before
+        after = Target(target.measured, sigma, used, target.loss)
+        before, new = model.space.spreads, new_spreads(model.space, after, found.x, answer)
+        is_same = bool(np.allclose(sigma, target.sigma, rtol=0.01) and (used == target.used).all())
+        if is_same and np.allclose(list(new.values()), list(before.values()), rtol=0.01, atol=0.0):
             break
-        model.space.spreads = new
-    return target, found, answer
+        target, model.space.spreads = after, new
+        found = _search.polish(model, target, found.x)
+    return target, found, model.at([found.x], rtol=FINE)[0]
 
 
 def _estimates(
