@@ -149,6 +149,13 @@ def test_what_is_known_beforehand_counts():
         assert result.estimates[name].error <= 0.0201 * value
 
 
+def test_residuals_leave_out_readings_that_are_held_out():
+    data = readings(["stroke_pp_deg", "pitch_amplitude_deg"])
+    result = flapwing.fit(PRESET, data, list(TRUE), sigma="3 %", starts=1, profile=False, hold_out=0.2)
+    for one in result.goodness.residuals:
+        assert 20 < np.isfinite(one.values).sum() == one.count < 30
+
+
 @pytest.mark.parametrize(
     "hold_out",
     [0.2, {"drive_frequency": (100, 115)}, {"drive_frequency": ("100 Hz", "0.115 kHz")}, "second", ["second"]],
@@ -213,6 +220,8 @@ def test_readings_without_a_settled_motion_are_told():
         ("set 1", "stroke_pp_deg", 5, "invalid")
     ]
     assert "1 reading does not count" in str(result) and result.goodness.freedom == 28
+    told = result.predict({"drive_frequency": 100.0, "drive_voltage_pp": [160.0, 1e9]}, "stroke_pp_deg", reading=True)
+    assert 0.03 * told.value[0] < told.error[0] < 0.05 * told.value[0] and np.isnan(told.error[1])
     free, held = ["hinge_stiffness"], {"drive_voltage_pp": (150, None)}
     result = flapwing.fit(PRESET, data, free, sigma="3 %", starts=1, profile=False, hold_out=held)
     assert (result.held_out.count, result.held_out.unsettled) == (16, 1) and result.held_out.covered <= 15 / 16

@@ -49,8 +49,8 @@ class Assessed:
 def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answer: Answer) -> Assessed:
     """Return the errors of an estimate, and the quality of the fit."""
     counted = target.used & np.isfinite(answer.values)
-    difference = np.where(np.isfinite(answer.values), answer.values - target.measured, np.nan)
-    scaled = np.where(counted, difference / target.sigma, np.nan)
+    difference = np.where(counted, answer.values - target.measured, np.nan)
+    scaled = difference / target.sigma
     units = {measure: model.names.unit(measure) for one in sets for measure in one.measured}
     layout = Layout(model.points, model.asked.row, _branches(sets))
     names = np.array(model.asked.measure)

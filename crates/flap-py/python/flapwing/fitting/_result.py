@@ -145,7 +145,7 @@ class Fit(Solution):
         answer = answers_at(self._model, given, measure, self._x, place, like)
         error = np.hypot(error_of(answer, self._covariance), self._discrepancy_of(measure, answer.values))
         if noise is not None:
-            error = np.hypot(error, noise.of(answer.values, answer.values, self._guesses[measure]))
+            error = np.hypot(error, noise.of(answer.values, np.nan_to_num(answer.values), self._guesses[measure]))
         unit = self._model.names.unit(measure)
         with np.errstate(invalid="ignore"):
             low, high = answer.values - self._quantile * error, answer.values + self._quantile * error

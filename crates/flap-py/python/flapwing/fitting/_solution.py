@@ -160,7 +160,8 @@ class Residuals:
     measure, unit : str
         The measure whose residuals are listed, and the unit of the measure.
     values : array
-        Model minus reading, in the measure's unit. A residual is nan if the motion does not settle.
+        Model minus reading, in the measure's unit. A residual is nan if the reading was not fitted, or if the motion
+        does not settle.
     scaled : array
         The residuals divided by the standard errors of the readings.
     rms : float
