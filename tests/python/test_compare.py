@@ -104,6 +104,7 @@ def test_held_out_errors_are_compared_over_readings_that_all_fits_predict(best):
     held, sides = np.arange(10) >= 5, []
     for place, errors in enumerate([[1.0, -1.0, 1.0, -1.0, 8.0], [1.2, -1.2, 1.2, -1.2, np.nan]]):
         values = np.concatenate([np.zeros(5), errors])
+        answer = SimpleNamespace(values=values, slopes=np.zeros((10, 0)))
         fit = SimpleNamespace(
             _held=held,
             _sets=sets,
@@ -111,7 +112,7 @@ def test_held_out_errors_are_compared_over_readings_that_all_fits_predict(best):
             _model=SimpleNamespace(asked=SimpleNamespace(measure=["stroke_pp_deg"] * 10)),
             goodness=SimpleNamespace(p=0.5, is_structured=False),
         )
-        found = criteria(sets, Space([]), np.zeros(0), values, ~held)
+        found = criteria(sets, Space([]), np.zeros(0), answer, ~held)
         found = replace(found, aicc=found.aicc + 5.0 * (place != best))
         sides.append(_deciding.Side(f"fit {place + 1}", fit, values, np.zeros((10, 0)), found))
     compared = Comparison(sides)

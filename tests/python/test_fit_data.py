@@ -2,12 +2,16 @@
 
 import csv
 import pickle
+from types import SimpleNamespace
 
 import flapwing
 import numpy as np
 import pandas
 import pytest
 from fits import FREQUENCY, PRESET, TRUE, TRUTH, VOLTAGE, readings
+from flapwing.fitting import _search
+from flapwing.fitting._parameters import Coordinate, Space
+from flapwing.fitting._search import Target
 
 
 def test_data_have_units(tmp_path):
@@ -147,6 +151,36 @@ def test_what_is_known_beforehand_counts():
     assert result.goodness.freedom == 3
     for name, value in TRUTH.items():
         assert result.estimates[name].error <= 0.0201 * value
+
+
+def test_priors_and_readings_share_the_parameters():
+    """Four readings and a prior with the same information determine half of a parameter each."""
+    space = Space([Coordinate("a", None, "a", "", False, -1.0, 1.0, 0.0, (0.0, 0.5))])
+    target = Target(np.zeros(4), np.ones(4), np.ones(4, np.bool_), "linear")
+    answer = SimpleNamespace(values=np.zeros(4), slopes=np.ones((4, 1)))
+    assert _search.followed(space, target, np.zeros(1), answer) == pytest.approx(0.5)
+    assert _search.determined(target.jacobian(space, np.zeros(1), answer)) == 1
+    # If priors determine all parameters, the estimated standard error is the root mean square of the residuals.
+    free = {name: flapwing.FreeParameter(prior=(value, "0.01 %")) for name, value in TRUTH.items()}
+    data = {name: values[:3] for name, values in readings().items()}
+    result = flapwing.fit(PRESET, data, free, starts=1, profile=False)
+    assert result._guesses["stroke_pp_deg"] == pytest.approx(result.goodness.residuals[0].rms, rel=0.01)
+
+
+def test_parameters_of_a_data_set_that_is_held_out_do_not_count():
+    """Three readings determine two parameters. No reading determines the stiffness of the second wing."""
+    sets = [
+        flapwing.Readings({key: values[seed:9:4] for key, values in readings(seed=seed).items()}, name=name)
+        for seed, name in enumerate(["first", "second"])
+    ]
+    free = {"hinge_stiffness": flapwing.FreeParameter(per_set=True), "drag_coefficient_max": None}
+    options = {"starts": 1, "profile": False, "wing_inertia_stroke": TRUTH["wing_inertia_stroke"]}
+    result = flapwing.fit(PRESET, sets, free, hold_out="second", **options)
+    assert result.goodness.freedom == 1 and result._quantile == pytest.approx(12.706, rel=1e-4)
+    assert result.goodness.chi_square == pytest.approx(1.0, rel=0.02)
+    assert np.isinf(result.estimates["hinge_stiffness of second"].error)
+    with pytest.raises(ValueError, match="3 free parameters but only 3 readings"):
+        flapwing.fit(PRESET, sets, [*TRUE][:2] + ["drag_coefficient_max"], hold_out="second", starts=1)
 
 
 def test_residuals_leave_out_readings_that_are_held_out():

@@ -238,13 +238,13 @@ def mixed_sets():
 def test_unknown_standard_errors_are_estimated_from_their_own_readings():
     sets, values = mixed_sets(), np.full(100, 50.0)
     readings = np.concatenate([one.measured["stroke_pp_deg"] for one in sets])
-    answer = SimpleNamespace(values=values)
+    answer = SimpleNamespace(values=values, slopes=np.zeros((100, 0)))
     own, guesses = np.sqrt(np.mean((readings[90:] - 50.0) ** 2)), {"stroke_pp_deg": 1.0}
     everything = np.ones(100, np.bool_)
     target = Target(readings, np.ones(100), everything, "linear")
     _search.new_guesses(sets, target, everything, answer, 2, guesses)
     assert guesses["stroke_pp_deg"] == pytest.approx(own / np.sqrt(0.98)) and own > 1.0
-    likely = criteria(sets, Space([]), np.zeros(0), values, everything)
+    likely = criteria(sets, Space([]), np.zeros(0), answer, everything)
     np.testing.assert_allclose(likely.sigma, np.repeat([0.1, own], [90, 10]))
     assert likely.parameters == 1
     # If all readings without a standard error are held out, the other readings determine the standard error.
@@ -252,7 +252,7 @@ def test_unknown_standard_errors_are_estimated_from_their_own_readings():
     other = np.sqrt(np.mean((readings[:90] - 50.0) ** 2))
     _search.new_guesses(sets, target, rest, answer, 0, guesses)
     assert guesses["stroke_pp_deg"] == pytest.approx(other)
-    likely = criteria(sets, Space([]), np.zeros(0), values, rest)
+    likely = criteria(sets, Space([]), np.zeros(0), answer, rest)
     np.testing.assert_allclose(likely.sigma, np.repeat([0.1, other], [90, 10]))
     assert likely.parameters == 0
 

@@ -62,11 +62,11 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     is_far = _far(measures, structured, scaled, target.loss)
     residuals = _solution.of_residuals(sets, units, difference, scaled, counted, structured)
     priors = model.space.prior(found.x)[0]
-    good = _solution.goodness(residuals, structure, priors, len(model.space), sigma_known(sets))
     # A loss function that is not linear reduces the weights of readings.
     weights = np.sqrt(_search.weights(target.residuals(model.space, found.x, answer), target.loss))
     jacobian = target.jacobian(model.space, found.x, answer) * weights[:, np.newaxis]
     inverse, lost = _search.inverse(jacobian)
+    good = _solution.goodness(residuals, structure, priors, _search.determined(jacobian), sigma_known(sets))
     slopes = np.zeros((len(scaled), len(model.space)))
     slopes[target.used] = jacobian[: int(target.used.sum())]
     fitted = counted & ~is_far

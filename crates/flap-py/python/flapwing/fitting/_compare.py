@@ -32,7 +32,8 @@ class ComparedFit:
     name : str
         The name of the fit.
     parameters : int
-        Number of free parameters. Each standard error that was estimated from the residuals counts as one parameter.
+        Number of free parameters, or combinations of free parameters, that the readings and priors determine. Each
+        standard error that was estimated from the residuals counts as one parameter.
     chi_square : float
         Chi-square: the sum of the squares of (residual / standard error) over all readings. The sum includes the
         residuals of priors. If standard errors were estimated, chi-square contains no information about the fit.
@@ -288,7 +289,7 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
         raise ValueError("no reading has a settled motion in all fits\ncompare fits that settle at the same readings")
     sides = []
     for name, one, answer in zip(named, listed, answers):
-        found = criteria(one._sets, one._model.space, one._x, answer.values, common)
+        found = criteria(one._sets, one._model.space, one._x, answer, common)
         sides.append(Side(name, one, answer.values, answer.slopes, found))
     return Comparison(sides)
 

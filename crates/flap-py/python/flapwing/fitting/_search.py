@@ -266,7 +266,7 @@ def decompose(jacobian: Array) -> tuple[Array, Array, Array, Mask]:
     lengths[lengths == 0.0] = 1.0
     _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
     sizes = np.concatenate([sizes, np.zeros(len(directions) - len(sizes))])
-    return lengths, sizes, directions, sizes > NOTHING * sizes[0]
+    return lengths, sizes, directions, sizes > NOTHING * sizes.max(initial=0.0)
 
 
 def inverse(jacobian: Array) -> tuple[Array, Mask]:
@@ -276,6 +276,22 @@ def inverse(jacobian: Array) -> tuple[Array, Mask]:
     lengths, sizes, directions, known = decompose(jacobian)
     scaled = directions[known] / sizes[known, np.newaxis] / lengths
     return scaled.T @ scaled, np.sum(directions[~known] ** 2, axis=0) > 1e-4
+
+
+def determined(jacobian: Array) -> int:
+    """Return the number of coordinates, or combinations of coordinates, that the residuals determine: the rank of the
+    derivatives.
+    """
+    return int(decompose(jacobian)[3].sum())
+
+
+def followed(space: Space, target: Target, x: Array, answer: Answer) -> float:
+    """Return the number of coordinates that the readings determine: the trace of the hat matrix of the readings. A
+    coordinate that a prior determines alone does not count.
+    """
+    jacobian = target.jacobian(space, x, answer)
+    readings = jacobian[: int(target.used.sum())]
+    return float(np.sum(inverse(jacobian)[0] * (readings.T @ readings)))
 
 
 def without(covariance: Array, lost: Mask) -> Array:
@@ -304,10 +320,12 @@ def first_guesses(sets: list[DataSet]) -> dict[str, float]:
 
 
 def new_guesses(
-    sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: int, guesses: dict[str, float]
+    sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: float, guesses: dict[str, float]
 ) -> None:
-    """Update the estimates of unknown standard errors in `guesses`, from the residuals."""
-    freedom = max(1, int(used.sum()) - parameters) / max(1, int(used.sum()))
+    """Update the estimates of unknown standard errors in `guesses`, from the residuals. The readings determine a number
+    of `parameters` (see `followed`).
+    """
+    freedom = max(1.0, int(used.sum()) - parameters) / max(1, int(used.sum()))
     for measure in guesses:
         mine = estimating(sets, measure, used)
         residuals = (answer.values - target.measured)[mine]

@@ -191,7 +191,8 @@ class Goodness:
     chi_square : float
         Sum of the squares of (residual / standard error) over all readings.
     freedom : int
-        Degrees of freedom of the fit.
+        Degrees of freedom of the fit: the number of readings and priors, less the number of parameters that the
+        readings and priors determine.
     p : float
         The probability of a sum of squares of at least `chi_square`, if the model and the given standard errors are
         correct. `p` is nan if standard errors are estimated.
