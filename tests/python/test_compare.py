@@ -7,12 +7,13 @@ import flapwing
 import numpy as np
 import pytest
 from fits import PRESET, TRUE, TRUTH, readings
-from flapwing.fitting import _deciding, _subsets
+from flapwing.fitting import _deciding, _select, _subsets
 from flapwing.fitting._compare import Comparison
 from flapwing.fitting._criteria import criteria
 from flapwing.fitting._data import DataSet
 from flapwing.fitting._noise import Noise
-from flapwing.fitting._parameters import Space
+from flapwing.fitting._parameters import Coordinate, Space
+from scipy.stats import linregress, norm
 
 BOTH = ["stroke_pp_deg", "pitch_amplitude_deg"]
 POINTS = {
@@ -47,6 +48,27 @@ def test_the_right_law_is_chosen(compared):
     assert best.held_out_score > third.held_out_score
     assert sum(one.weight for one in compared.fits) == pytest.approx(1.0)
     assert "stroke is clearly better" in str(compared) and "held-out rms (stroke_pp_deg)" in str(compared)
+
+
+@pytest.mark.parametrize("sigma", [None, 0.8])
+def test_the_chance_of_a_step_is_exact_for_a_line(sigma):
+    """A constant and a line, with the p value of the t test of the slope for an estimated standard error."""
+    draw, x = np.random.default_rng(5), np.linspace(-1.0, 1.0, 9)
+    y = x + draw.normal(size=9)
+    noise = {"stroke_pp_deg": Noise("unknown") if sigma is None else Noise("absolute", sigma)}
+    sets = [DataSet("set 1", {}, {"stroke_pp_deg": y}, noise, None, "drive_frequency")]
+    line = linregress(x, y)
+    states = []
+    for values, columns in [(np.full(9, y.mean()), [x**0]), (line.intercept + line.slope * x, [x**0, x])]:
+        slopes = np.stack(columns, axis=1)
+        space = Space([Coordinate(name, None, name, "", False, -9.0, 9.0, 0.0, None) for name in "ab"[: len(columns)]])
+        answer = SimpleNamespace(values=values, slopes=slopes)
+        found = criteria(sets, space, np.zeros(len(columns)), answer, np.ones(9, np.bool_))
+        states.append(SimpleNamespace(criteria=found))
+    p = line.pvalue if sigma is None else 2 * norm.sf(abs(line.slope) * np.sqrt(x @ x) / sigma)
+    assert 1e-4 < p < 0.4 and _select._chance(*states, 1) == pytest.approx(p)
+    assert _select._chance(*states, 2) == pytest.approx(2 * p)
+    assert _select._chance(states[0], states[0], 1) == 1.0
 
 
 def test_plans_of_fits_with_unknown_noise_contain_the_noise_of_both_fits():
