@@ -50,6 +50,28 @@ def test_the_right_law_is_chosen(compared):
     assert "stroke is clearly better" in str(compared) and "held-out rms (stroke_pp_deg)" in str(compared)
 
 
+def test_the_held_out_score_is_the_density_of_the_predictions(compared, lossy):
+    """The density contains the discrepancy of the law that lacks the loss."""
+    held = (lossy["drive_frequency"] >= 100) & (lossy["drive_frequency"] <= 115)
+    points = {name: lossy[name][held] for name in POINTS}
+    assert [bool(side.fit.discrepancy) for side in compared._sides] == [False, False, True]
+    for one, side in zip(compared.fits, compared._sides):
+        predicted = [(lossy[name][held], side.fit.predict(points, name, reading=True)) for name in BOTH]
+        scores = [norm.logpdf(measured, found.value, found.error) for measured, found in predicted]
+        assert one.held_out_score == pytest.approx(np.mean(scores), rel=1e-3)
+
+
+def test_predictions_with_an_undetermined_parameter_have_no_score():
+    sets = [flapwing.Readings(readings(points=POINTS, seed=seed), name=f"wing {seed}") for seed in range(2)]
+    free = {"hinge_stiffness": flapwing.FreeParameter(per_set=True)}
+    options = {**FAST, "hold_out": "wing 1", "wing_inertia_stroke": TRUTH["wing_inertia_stroke"]}
+    made = [flapwing.fit(PRESET, sets, {**free, **dict.fromkeys(more)}, **options) for more in ([], list(TRUE)[2:])]
+    compared = flapwing.compare(made)
+    assert all(np.isnan(one.held_out_score) for one in compared.fits)
+    assert sorted(one.parameters for one in compared.fits) == [1, 2]
+    assert "fit 1 has no log score: the errors of some held-out predictions are unknown" in str(compared)
+
+
 @pytest.mark.parametrize("sigma", [None, 0.8])
 def test_the_chance_of_a_step_is_exact_for_a_line(sigma):
     """A constant and a line, with the p value of the t test of the slope for an estimated standard error."""
@@ -130,13 +152,12 @@ def test_held_out_errors_are_compared_over_readings_that_all_fits_predict(best):
         fit = SimpleNamespace(
             _held=held,
             _sets=sets,
-            _covariance=np.zeros((0, 0)),
             _model=SimpleNamespace(asked=SimpleNamespace(measure=["stroke_pp_deg"] * 10)),
             goodness=SimpleNamespace(p=0.5, is_structured=False),
         )
         found = criteria(sets, Space([]), np.zeros(0), answer, ~held)
         found = replace(found, aicc=found.aicc + 5.0 * (place != best))
-        sides.append(_deciding.Side(f"fit {place + 1}", fit, values, np.zeros((10, 0)), found))
+        sides.append(_deciding.Side(f"fit {place + 1}", fit, values, np.ones(10), found))
     compared = Comparison(sides)
     first, second = sorted(compared.fits, key=lambda one: one.name)
     assert first.held_out_rms == {"stroke_pp_deg": pytest.approx(1.0)}
