@@ -6,7 +6,7 @@ import flapwing
 import numpy as np
 import pytest
 from fits import PRESET, TRUE, TRUTH, readings
-from flapwing.fitting import _search, _structure
+from flapwing.fitting import _assess, _search, _structure
 from flapwing.fitting._criteria import criteria
 from flapwing.fitting._data import DataSet
 from flapwing.fitting._noise import Noise
@@ -47,6 +47,18 @@ def test_errors_intervals_and_bands_of_a_wrong_model_hold_its_discrepancy(wrong)
     assert (value.error > 0.01 * wrong.discrepancy[0].size * value.value).all()
     plan = wrong.next_measurements(points, "drag_coefficient_max", count=1)
     assert plan.now == pytest.approx(wrong.estimates["drag_coefficient_max"].error, rel=1e-3)
+
+
+def test_the_test_for_drift_has_the_derivatives_of_its_residuals(monkeypatch):
+    given = {}
+    monkeypatch.setattr(
+        _assess, "between_sets", lambda space, of_set, scaled, slopes: given.update(scaled=scaled, slopes=slopes) or ""
+    )
+    data = readings()
+    found = flapwing.fit(PRESET, data, FREE, sigma="2 deg", loss="cauchy", starts=1, profile=False, **AS_MADE)
+    answer = found._model.everything(found._x)
+    np.testing.assert_allclose(given["scaled"], (answer.values - data["stroke_pp_deg"]) / 2.0, atol=1e-6)
+    np.testing.assert_allclose(given["slopes"], answer.slopes / 2.0, rtol=1e-6)
 
 
 def test_a_right_model_has_no_discrepancy():

@@ -203,14 +203,25 @@ def sobol(space: Space, count: int, seed: int) -> list[Array]:
     return list(space.low + (space.high - space.low) * drawn)
 
 
-#: The loss functions of `scipy.optimize.least_squares`, and their derivatives: functions of squared residuals.
-LOSSES: dict[str, tuple[Callable[[Array], Array], Callable[[Array], Array]]] = {
-    "linear": (lambda z: z, np.ones_like),
-    "soft_l1": (lambda z: 2 * (np.sqrt(1 + z) - 1), lambda z: 1 / np.sqrt(1 + z)),
-    "huber": (lambda z: np.where(z <= 1, z, 2 * np.sqrt(z) - 1), lambda z: 1 / np.sqrt(np.maximum(z, 1.0))),
-    "cauchy": (np.log1p, lambda z: 1 / (1 + z)),
-    "arctan": (np.arctan, lambda z: 1 / (1 + z**2)),
+#: The loss functions of `scipy.optimize.least_squares`, and their first and second derivatives: functions of squared
+#: residuals.
+LOSSES: dict[str, tuple[Callable[[Array], Array], Callable[[Array], Array], Callable[[Array], Array]]] = {
+    "linear": (lambda z: z, np.ones_like, np.zeros_like),
+    "soft_l1": (lambda z: 2 * (np.sqrt(1 + z) - 1), lambda z: 1 / np.sqrt(1 + z), lambda z: -0.5 * (1 + z) ** -1.5),
+    "huber": (
+        lambda z: np.where(z <= 1, z, 2 * np.sqrt(z) - 1),
+        lambda z: 1 / np.sqrt(np.maximum(z, 1.0)),
+        lambda z: np.where(z <= 1, 0.0, -0.5 * np.maximum(z, 1.0) ** -1.5),
+    ),
+    "cauchy": (np.log1p, lambda z: 1 / (1 + z), lambda z: -1 / (1 + z) ** 2),
+    "arctan": (np.arctan, lambda z: 1 / (1 + z**2), lambda z: -2 * z / (1 + z**2) ** 2),
 }
+
+#: The variance of the estimates with each loss, relative to the linear loss, for normal residuals.
+NORMAL_VARIANCE = {"linear": 1.0, "soft_l1": 1.079, "huber": 1.107, "cauchy": 1.313, "arctan": 2.055}
+
+#: Smallest curvature of a robust cost, as a share of the mean weight of the residuals. Far outliers bend the cost down.
+_CURVATURE = 0.1
 
 
 def cost_of(residuals: Array, loss: str) -> float:
@@ -223,6 +234,22 @@ def weights(residuals: Array, loss: str) -> Array:
     residual.
     """
     return np.asarray(LOSSES[loss][1](residuals**2))
+
+
+def robust_factors(residuals: Array, loss: str, freedom: int) -> tuple[float, float]:
+    """Return the curvature of the cost, and the variance of the estimates. Both are relative to the linear loss.
+
+    The variance is the variance of an M-estimator, E[psi^2] / E[psi']^2 (Huber and Ronchetti 2009, chapter 7), and the
+    curvature is E[psi']. In these formulas, psi is the derivative of half of the loss with respect to the residual.
+    The variance is at least the variance for normal residuals, because a few residuals underestimate it.
+    """
+    if loss == "linear":
+        return 1.0, 1.0
+    squares = residuals**2
+    first, second = (function(squares) for function in LOSSES[loss][1:])
+    curvature = max(float(np.mean(first + 2 * squares * second)), _CURVATURE * float(np.mean(first)))
+    variance = float(np.sum(squares * first**2)) / max(1, freedom) / curvature**2
+    return curvature, max(variance, NORMAL_VARIANCE[loss])
 
 
 def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Found]:
