@@ -126,6 +126,14 @@ def test_errors_that_are_not_known_are_estimated():
         assert abs(result.estimates[name].value - value) < 4 * result.estimates[name].error
 
 
+def test_intervals_with_estimated_errors_have_the_quantiles_of_t():
+    data = {name: values[:7] for name, values in readings(noise=0.01).items()}
+    result = flapwing.fit(PRESET, data, ["hinge_stiffness"], starts=1, profile=False, **BESIDE)
+    one = result.estimates["hinge_stiffness"]
+    assert result.goodness.freedom == 6 and result._quantile == pytest.approx(2.4469, rel=1e-4)
+    assert one.high - one.low == pytest.approx(2 * 2.4469 * one.error, rel=0.01)
+
+
 def test_intervals_belong_to_the_last_standard_errors(monkeypatch):
     """The first guess of the standard error is about three times the noise."""
     monkeypatch.setattr(_fit, "_ROUNDS", 1)

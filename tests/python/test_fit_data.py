@@ -9,7 +9,7 @@ import numpy as np
 import pandas
 import pytest
 from fits import FREQUENCY, PRESET, TRUE, TRUTH, VOLTAGE, readings
-from flapwing.fitting import _search
+from flapwing.fitting import _search, _solution
 from flapwing.fitting._parameters import Coordinate, Space
 from flapwing.fitting._search import Target
 
@@ -181,6 +181,14 @@ def test_parameters_of_a_data_set_that_is_held_out_do_not_count():
     assert np.isinf(result.estimates["hinge_stiffness of second"].error)
     with pytest.raises(ValueError, match="3 free parameters but only 3 readings"):
         flapwing.fit(PRESET, sets, [*TRUE][:2] + ["drag_coefficient_max"], hold_out="second", starts=1)
+
+
+def test_readings_within_their_bands_are_covered():
+    names, values = np.array(["stroke_pp_deg"] * 5), np.array([10.5, 19.1, 31.1, 37.0, 99.0])
+    measured, held = np.array([10.0, 20.0, 30.0, 40.0, 50.0]), np.arange(5) < 4
+    found = _solution.held_out(names, measured, values, held, np.ones(5))
+    assert (found.count, found.covered, found.unsettled) == (4, 0.5, 0)
+    assert found.rms["stroke_pp_deg"] == pytest.approx(np.sqrt((0.25 + 0.81 + 1.21 + 9.0) / 4))
 
 
 def test_residuals_leave_out_readings_that_are_held_out():

@@ -6,7 +6,7 @@ import flapwing
 import numpy as np
 import pytest
 from fits import PRESET, TRUE, TRUTH, readings
-from flapwing.fitting import _assess, _search, _structure
+from flapwing.fitting import _assess, _discrepancy, _search, _structure
 from flapwing.fitting._criteria import criteria
 from flapwing.fitting._data import DataSet
 from flapwing.fitting._noise import Noise
@@ -47,6 +47,21 @@ def test_errors_intervals_and_bands_of_a_wrong_model_hold_its_discrepancy(wrong)
     assert (value.error > 0.01 * wrong.discrepancy[0].size * value.value).all()
     plan = wrong.next_measurements(points, "drag_coefficient_max", count=1)
     assert plan.now == pytest.approx(wrong.estimates["drag_coefficient_max"].error, rel=1e-3)
+
+
+def test_the_size_of_a_slow_discrepancy_is_found():
+    """1000 residuals: noise of one standard error, and a sine with a root mean square of 3 standard errors."""
+    phase = np.linspace(0.0, 8 * np.pi, 1000)
+    scaled = np.random.default_rng(1).normal(size=1000) + 3.0 * np.sqrt(2.0) * np.sin(phase)
+    layout = _structure.Layout(
+        {"drive_frequency": np.geomspace(10.0, 4000.0, 1000)}, np.arange(1000), np.zeros(1000, np.intp)
+    )
+    name, ones = "stroke_pp_deg", np.ones(1000)
+    told = {name: "absolute"}, {name: "deg"}, {name}
+    found = _discrepancy.of_residuals(
+        layout, {name: np.arange(1000)}, *told, ones, ones, scaled, ones[:, np.newaxis], np.array([[1e-3]])
+    )
+    assert [(one.unit, one.size) for one in found.listed] == [("deg", pytest.approx(3.0, rel=0.05))]
 
 
 def test_the_test_for_drift_has_the_derivatives_of_its_residuals(monkeypatch):
