@@ -7,12 +7,13 @@ import flapwing
 import numpy as np
 import pytest
 from fits import PRESET, TRUE, TRUTH, readings
-from flapwing.fitting import _deciding, _subsets
+from flapwing.fitting import _deciding, _select, _subsets
 from flapwing.fitting._compare import Comparison
 from flapwing.fitting._criteria import criteria
 from flapwing.fitting._data import DataSet
 from flapwing.fitting._noise import Noise
-from flapwing.fitting._parameters import Space
+from flapwing.fitting._parameters import Coordinate, Space
+from scipy.stats import linregress, norm
 
 BOTH = ["stroke_pp_deg", "pitch_amplitude_deg"]
 POINTS = {
@@ -47,6 +48,49 @@ def test_the_right_law_is_chosen(compared):
     assert best.held_out_score > third.held_out_score
     assert sum(one.weight for one in compared.fits) == pytest.approx(1.0)
     assert "stroke is clearly better" in str(compared) and "held-out rms (stroke_pp_deg)" in str(compared)
+
+
+def test_the_held_out_score_is_the_density_of_the_predictions(compared, lossy):
+    """The density contains the discrepancy of the law that lacks the loss."""
+    held = (lossy["drive_frequency"] >= 100) & (lossy["drive_frequency"] <= 115)
+    points = {name: lossy[name][held] for name in POINTS}
+    assert [bool(side.fit.discrepancy) for side in compared._sides] == [False, False, True]
+    for one, side in zip(compared.fits, compared._sides):
+        predicted = [(lossy[name][held], side.fit.predict(points, name, reading=True)) for name in BOTH]
+        scores = [norm.logpdf(measured, found.value, found.error) for measured, found in predicted]
+        assert one.held_out_score == pytest.approx(np.mean(scores), rel=1e-3)
+
+
+def test_predictions_with_an_undetermined_parameter_have_no_score():
+    sets = [flapwing.Readings(readings(points=POINTS, seed=seed), name=f"wing {seed}") for seed in range(2)]
+    free = {"hinge_stiffness": flapwing.FreeParameter(per_set=True)}
+    options = {**FAST, "hold_out": "wing 1", "wing_inertia_stroke": TRUTH["wing_inertia_stroke"]}
+    made = [flapwing.fit(PRESET, sets, {**free, **dict.fromkeys(more)}, **options) for more in ([], list(TRUE)[2:])]
+    compared = flapwing.compare(made)
+    assert all(np.isnan(one.held_out_score) for one in compared.fits)
+    assert sorted(one.parameters for one in compared.fits) == [1, 2]
+    assert "fit 1 has no log score: the errors of some held-out predictions are unknown" in str(compared)
+
+
+@pytest.mark.parametrize("sigma", [None, 0.8])
+def test_the_chance_of_a_step_is_exact_for_a_line(sigma):
+    """A constant and a line, with the p value of the t test of the slope for an estimated standard error."""
+    draw, x = np.random.default_rng(5), np.linspace(-1.0, 1.0, 9)
+    y = x + draw.normal(size=9)
+    noise = {"stroke_pp_deg": Noise("unknown") if sigma is None else Noise("absolute", sigma)}
+    sets = [DataSet("set 1", {}, {"stroke_pp_deg": y}, noise, None, "drive_frequency")]
+    line = linregress(x, y)
+    states = []
+    for values, columns in [(np.full(9, y.mean()), [x**0]), (line.intercept + line.slope * x, [x**0, x])]:
+        slopes = np.stack(columns, axis=1)
+        space = Space([Coordinate(name, None, name, "", False, -9.0, 9.0, 0.0, None) for name in "ab"[: len(columns)]])
+        answer = SimpleNamespace(values=values, slopes=slopes)
+        found = criteria(sets, space, np.zeros(len(columns)), answer, np.ones(9, np.bool_))
+        states.append(SimpleNamespace(criteria=found))
+    p = line.pvalue if sigma is None else 2 * norm.sf(abs(line.slope) * np.sqrt(x @ x) / sigma)
+    assert 1e-4 < p < 0.4 and _select._chance(*states, 1) == pytest.approx(p)
+    assert _select._chance(*states, 2) == pytest.approx(2 * p)
+    assert _select._chance(states[0], states[0], 1) == 1.0
 
 
 def test_plans_of_fits_with_unknown_noise_contain_the_noise_of_both_fits():
@@ -104,16 +148,16 @@ def test_held_out_errors_are_compared_over_readings_that_all_fits_predict(best):
     held, sides = np.arange(10) >= 5, []
     for place, errors in enumerate([[1.0, -1.0, 1.0, -1.0, 8.0], [1.2, -1.2, 1.2, -1.2, np.nan]]):
         values = np.concatenate([np.zeros(5), errors])
+        answer = SimpleNamespace(values=values, slopes=np.zeros((10, 0)))
         fit = SimpleNamespace(
             _held=held,
             _sets=sets,
-            _covariance=np.zeros((0, 0)),
             _model=SimpleNamespace(asked=SimpleNamespace(measure=["stroke_pp_deg"] * 10)),
             goodness=SimpleNamespace(p=0.5, is_structured=False),
         )
-        found = criteria(sets, Space([]), np.zeros(0), values, ~held)
+        found = criteria(sets, Space([]), np.zeros(0), answer, ~held)
         found = replace(found, aicc=found.aicc + 5.0 * (place != best))
-        sides.append(_deciding.Side(f"fit {place + 1}", fit, values, np.zeros((10, 0)), found))
+        sides.append(_deciding.Side(f"fit {place + 1}", fit, values, np.ones(10), found))
     compared = Comparison(sides)
     first, second = sorted(compared.fits, key=lambda one: one.name)
     assert first.held_out_rms == {"stroke_pp_deg": pytest.approx(1.0)}

@@ -4,6 +4,8 @@ import flapwing
 import numpy as np
 import pytest
 from fits import FREQUENCY, PRESET, TRUE, TRUTH, readings
+from flapwing.fitting import _fit, _search
+from scipy.stats import norm
 
 #: The true parameters without the hinge stiffness.
 BESIDE = {name: value for name, value in TRUTH.items() if name != "hinge_stiffness"}
@@ -122,6 +124,55 @@ def test_errors_that_are_not_known_are_estimated():
     assert "estimated from the residuals" in str(result)
     for name, value in TRUTH.items():
         assert abs(result.estimates[name].value - value) < 4 * result.estimates[name].error
+
+
+def test_intervals_with_estimated_errors_have_the_quantiles_of_t():
+    data = {name: values[:7] for name, values in readings(noise=0.01).items()}
+    result = flapwing.fit(PRESET, data, ["hinge_stiffness"], starts=1, profile=False, **BESIDE)
+    one = result.estimates["hinge_stiffness"]
+    assert result.goodness.freedom == 6 and result._quantile == pytest.approx(2.4469, rel=1e-4)
+    assert one.high - one.low == pytest.approx(2 * 2.4469 * one.error, rel=0.01)
+
+
+def test_intervals_belong_to_the_last_standard_errors(monkeypatch):
+    """The first guess of the standard error is about three times the noise."""
+    monkeypatch.setattr(_fit, "_ROUNDS", 1)
+    result = flapwing.fit(PRESET, readings(noise=0.01), ["hinge_stiffness"], starts=1, **BESIDE)
+    one = result.estimates["hinge_stiffness"]
+    assert result.goodness.chi_square == pytest.approx(29, rel=0.01)
+    assert one.high - one.low == pytest.approx(2 * 2.0452 * one.error, rel=0.05)
+
+
+@pytest.mark.parametrize(
+    ("loss", "curvature", "variance"),
+    [("linear", 1, 1), ("soft_l1", 0.5649, 1.0790), ("huber", 0.6827, 1.1073), ("cauchy", 0.3443, 1.3131),
+     ("arctan", 0.2682, 2.0552)],
+)  # fmt: skip
+def test_errors_with_a_robust_loss_are_errors_of_m_estimators(loss, curvature, variance):
+    """The expected values are integrals over the normal distribution."""
+    residuals = norm.ppf((np.arange(20000) + 0.5) / 20000)
+    assert _search.robust_factors(residuals, loss, 20000) == pytest.approx((curvature, variance), rel=1e-3)
+    # With few residuals that are small, the variance is still the variance for normal residuals.
+    assert _search.robust_factors(np.full(4, 0.1), loss, 3)[1] == pytest.approx(variance, rel=1e-3)
+
+
+def test_outliers_widen_the_errors_of_a_robust_loss():
+    """A share of 20 % has the derivatives 1 and the curvature 0."""
+    residuals = np.concatenate([norm.ppf((np.arange(8000) + 0.5) / 8000), np.full(2000, 1e3)])
+    curvature, variance = _search.robust_factors(residuals, "huber", 10000)
+    assert curvature == pytest.approx(0.8 * 0.6827, rel=1e-3)
+    assert variance == pytest.approx((0.8 * 0.5161 + 0.2) / (0.8 * 0.6827) ** 2, rel=1e-3)
+
+
+@pytest.mark.parametrize(("loss", "variance"), [("cauchy", 1.3131), ("arctan", 2.0552)])
+def test_intervals_of_a_robust_loss_have_the_width_of_its_errors(loss, variance):
+    errors = {}
+    for one in ("linear", loss):
+        result = flapwing.fit(PRESET, readings(), ["hinge_stiffness"], sigma="3 %", loss=one, starts=1, **BESIDE)
+        estimate = result.estimates["hinge_stiffness"]
+        assert estimate.high - estimate.low == pytest.approx(2 * 1.96 * estimate.error, rel=0.2)
+        errors[one] = estimate.error
+    assert 0.95 * np.sqrt(variance) < errors[loss] / errors["linear"] < 1.4 * np.sqrt(variance)
 
 
 def test_outliers_count_less_with_a_robust_loss():

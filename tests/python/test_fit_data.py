@@ -2,12 +2,16 @@
 
 import csv
 import pickle
+from types import SimpleNamespace
 
 import flapwing
 import numpy as np
 import pandas
 import pytest
 from fits import FREQUENCY, PRESET, TRUE, TRUTH, VOLTAGE, readings
+from flapwing.fitting import _search, _solution
+from flapwing.fitting._parameters import Coordinate, Space
+from flapwing.fitting._search import Target
 
 
 def test_data_have_units(tmp_path):
@@ -149,6 +153,51 @@ def test_what_is_known_beforehand_counts():
         assert result.estimates[name].error <= 0.0201 * value
 
 
+def test_priors_and_readings_share_the_parameters():
+    """Four readings and a prior with the same information determine half of a parameter each."""
+    space = Space([Coordinate("a", None, "a", "", False, -1.0, 1.0, 0.0, (0.0, 0.5))])
+    target = Target(np.zeros(4), np.ones(4), np.ones(4, np.bool_), "linear")
+    answer = SimpleNamespace(values=np.zeros(4), slopes=np.ones((4, 1)))
+    assert _search.followed(space, target, np.zeros(1), answer) == pytest.approx(0.5)
+    assert _search.determined(target.jacobian(space, np.zeros(1), answer)) == 1
+    # If priors determine all parameters, the estimated standard error is the root mean square of the residuals.
+    free = {name: flapwing.FreeParameter(prior=(value, "0.01 %")) for name, value in TRUTH.items()}
+    data = {name: values[:3] for name, values in readings().items()}
+    result = flapwing.fit(PRESET, data, free, starts=1, profile=False)
+    assert result._guesses["stroke_pp_deg"] == pytest.approx(result.goodness.residuals[0].rms, rel=0.01)
+
+
+def test_parameters_of_a_data_set_that_is_held_out_do_not_count():
+    """Three readings determine two parameters. No reading determines the stiffness of the second wing."""
+    sets = [
+        flapwing.Readings({key: values[seed:9:4] for key, values in readings(seed=seed).items()}, name=name)
+        for seed, name in enumerate(["first", "second"])
+    ]
+    free = {"hinge_stiffness": flapwing.FreeParameter(per_set=True), "drag_coefficient_max": None}
+    options = {"starts": 1, "profile": False, "wing_inertia_stroke": TRUTH["wing_inertia_stroke"]}
+    result = flapwing.fit(PRESET, sets, free, hold_out="second", **options)
+    assert result.goodness.freedom == 1 and result._quantile == pytest.approx(12.706, rel=1e-4)
+    assert result.goodness.chi_square == pytest.approx(1.0, rel=0.02)
+    assert np.isinf(result.estimates["hinge_stiffness of second"].error)
+    with pytest.raises(ValueError, match="3 free parameters but only 3 readings"):
+        flapwing.fit(PRESET, sets, [*TRUE][:2] + ["drag_coefficient_max"], hold_out="second", starts=1)
+
+
+def test_readings_within_their_bands_are_covered():
+    names, values = np.array(["stroke_pp_deg"] * 5), np.array([10.5, 19.1, 31.1, 37.0, 99.0])
+    measured, held = np.array([10.0, 20.0, 30.0, 40.0, 50.0]), np.arange(5) < 4
+    found = _solution.held_out(names, measured, values, held, np.ones(5))
+    assert (found.count, found.covered, found.unsettled) == (4, 0.5, 0)
+    assert found.rms["stroke_pp_deg"] == pytest.approx(np.sqrt((0.25 + 0.81 + 1.21 + 9.0) / 4))
+
+
+def test_residuals_leave_out_readings_that_are_held_out():
+    data = readings(["stroke_pp_deg", "pitch_amplitude_deg"])
+    result = flapwing.fit(PRESET, data, list(TRUE), sigma="3 %", starts=1, profile=False, hold_out=0.2)
+    for one in result.goodness.residuals:
+        assert 20 < np.isfinite(one.values).sum() == one.count < 30
+
+
 @pytest.mark.parametrize(
     "hold_out",
     [0.2, {"drive_frequency": (100, 115)}, {"drive_frequency": ("100 Hz", "0.115 kHz")}, "second", ["second"]],
@@ -213,6 +262,8 @@ def test_readings_without_a_settled_motion_are_told():
         ("set 1", "stroke_pp_deg", 5, "invalid")
     ]
     assert "1 reading does not count" in str(result) and result.goodness.freedom == 28
+    told = result.predict({"drive_frequency": 100.0, "drive_voltage_pp": [160.0, 1e9]}, "stroke_pp_deg", reading=True)
+    assert 0.03 * told.value[0] < told.error[0] < 0.05 * told.value[0] and np.isnan(told.error[1])
     free, held = ["hinge_stiffness"], {"drive_voltage_pp": (150, None)}
     result = flapwing.fit(PRESET, data, free, sigma="3 %", starts=1, profile=False, hold_out=held)
     assert (result.held_out.count, result.held_out.unsettled) == (16, 1) and result.held_out.covered <= 15 / 16

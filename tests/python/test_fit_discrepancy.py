@@ -6,7 +6,7 @@ import flapwing
 import numpy as np
 import pytest
 from fits import PRESET, TRUE, TRUTH, readings
-from flapwing.fitting import _search, _structure
+from flapwing.fitting import _assess, _discrepancy, _search, _structure
 from flapwing.fitting._criteria import criteria
 from flapwing.fitting._data import DataSet
 from flapwing.fitting._noise import Noise
@@ -47,6 +47,33 @@ def test_errors_intervals_and_bands_of_a_wrong_model_hold_its_discrepancy(wrong)
     assert (value.error > 0.01 * wrong.discrepancy[0].size * value.value).all()
     plan = wrong.next_measurements(points, "drag_coefficient_max", count=1)
     assert plan.now == pytest.approx(wrong.estimates["drag_coefficient_max"].error, rel=1e-3)
+
+
+def test_the_size_of_a_slow_discrepancy_is_found():
+    """1000 residuals: noise of one standard error, and a sine with a root mean square of 3 standard errors."""
+    phase = np.linspace(0.0, 8 * np.pi, 1000)
+    scaled = np.random.default_rng(1).normal(size=1000) + 3.0 * np.sqrt(2.0) * np.sin(phase)
+    layout = _structure.Layout(
+        {"drive_frequency": np.geomspace(10.0, 4000.0, 1000)}, np.arange(1000), np.zeros(1000, np.intp)
+    )
+    name, ones = "stroke_pp_deg", np.ones(1000)
+    told = {name: "absolute"}, {name: "deg"}, {name}
+    found = _discrepancy.of_residuals(
+        layout, {name: np.arange(1000)}, *told, ones, ones, scaled, ones[:, np.newaxis], np.array([[1e-3]])
+    )
+    assert [(one.unit, one.size) for one in found.listed] == [("deg", pytest.approx(3.0, rel=0.05))]
+
+
+def test_the_test_for_drift_has_the_derivatives_of_its_residuals(monkeypatch):
+    given = {}
+    monkeypatch.setattr(
+        _assess, "between_sets", lambda space, of_set, scaled, slopes: given.update(scaled=scaled, slopes=slopes) or ""
+    )
+    data = readings()
+    found = flapwing.fit(PRESET, data, FREE, sigma="2 deg", loss="cauchy", starts=1, profile=False, **AS_MADE)
+    answer = found._model.everything(found._x)
+    np.testing.assert_allclose(given["scaled"], (answer.values - data["stroke_pp_deg"]) / 2.0, atol=1e-6)
+    np.testing.assert_allclose(given["slopes"], answer.slopes / 2.0, rtol=1e-6)
 
 
 def test_a_right_model_has_no_discrepancy():
@@ -238,13 +265,13 @@ def mixed_sets():
 def test_unknown_standard_errors_are_estimated_from_their_own_readings():
     sets, values = mixed_sets(), np.full(100, 50.0)
     readings = np.concatenate([one.measured["stroke_pp_deg"] for one in sets])
-    answer = SimpleNamespace(values=values)
+    answer = SimpleNamespace(values=values, slopes=np.zeros((100, 0)))
     own, guesses = np.sqrt(np.mean((readings[90:] - 50.0) ** 2)), {"stroke_pp_deg": 1.0}
     everything = np.ones(100, np.bool_)
     target = Target(readings, np.ones(100), everything, "linear")
     _search.new_guesses(sets, target, everything, answer, 2, guesses)
     assert guesses["stroke_pp_deg"] == pytest.approx(own / np.sqrt(0.98)) and own > 1.0
-    likely = criteria(sets, Space([]), np.zeros(0), values, everything)
+    likely = criteria(sets, Space([]), np.zeros(0), answer, everything)
     np.testing.assert_allclose(likely.sigma, np.repeat([0.1, own], [90, 10]))
     assert likely.parameters == 1
     # If all readings without a standard error are held out, the other readings determine the standard error.
@@ -252,7 +279,7 @@ def test_unknown_standard_errors_are_estimated_from_their_own_readings():
     other = np.sqrt(np.mean((readings[:90] - 50.0) ** 2))
     _search.new_guesses(sets, target, rest, answer, 0, guesses)
     assert guesses["stroke_pp_deg"] == pytest.approx(other)
-    likely = criteria(sets, Space([]), np.zeros(0), values, rest)
+    likely = criteria(sets, Space([]), np.zeros(0), answer, rest)
     np.testing.assert_allclose(likely.sigma, np.repeat([0.1, other], [90, 10]))
     assert likely.parameters == 0
 

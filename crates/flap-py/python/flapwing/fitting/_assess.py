@@ -30,13 +30,14 @@ _OUTLYING, _OUTLYING_ROBUST = 4.0, 3.0
 class Assessed:
     """The errors of an estimate, and the quality of the fit."""
 
-    #: The covariance of the coordinates, without and with the discrepancy of the model; infinite for coordinates that
-    #: the data do not determine.
+    #: The inverse of the curvature of the cost, and the covariance of the coordinates. The covariance contains the
+    #: discrepancy of the model. Both are infinite for coordinates that the data do not determine.
     plain: Array
     covariance: Array
-    #: The increase of the standard error of each coordinate by the discrepancy.
+    #: The standard error of each coordinate, divided by the standard error that belongs to the curvature of the cost.
+    #: The factor is 1 for the linear loss without discrepancy.
     factors: Array
-    #: The derivatives of the residuals and priors with respect to the coordinates, with the weights of the loss.
+    #: The derivatives of the residuals and priors with respect to the coordinates, scaled to the curvature of the cost.
     jacobian: Array
     discrepancy: Discrepancies
     goodness: Goodness
@@ -49,8 +50,8 @@ class Assessed:
 def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answer: Answer) -> Assessed:
     """Return the errors of an estimate, and the quality of the fit."""
     counted = target.used & np.isfinite(answer.values)
-    difference = np.where(np.isfinite(answer.values), answer.values - target.measured, np.nan)
-    scaled = np.where(counted, difference / target.sigma, np.nan)
+    difference = np.where(counted, answer.values - target.measured, np.nan)
+    scaled = difference / target.sigma
     units = {measure: model.names.unit(measure) for one in sets for measure in one.measured}
     layout = Layout(model.points, model.asked.row, _branches(sets))
     names = np.array(model.asked.measure)
@@ -62,11 +63,9 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     is_far = _far(measures, structured, scaled, target.loss)
     residuals = _solution.of_residuals(sets, units, difference, scaled, counted, structured)
     priors = model.space.prior(found.x)[0]
-    good = _solution.goodness(residuals, structure, priors, len(model.space), sigma_known(sets))
-    # A loss function that is not linear reduces the weights of readings.
-    weights = np.sqrt(_search.weights(target.residuals(model.space, found.x, answer), target.loss))
-    jacobian = target.jacobian(model.space, found.x, answer) * weights[:, np.newaxis]
+    jacobian = target.jacobian(model.space, found.x, answer)
     inverse, lost = _search.inverse(jacobian)
+    good = _solution.goodness(residuals, structure, priors, _search.determined(jacobian), sigma_known(sets))
     slopes = np.zeros((len(scaled), len(model.space)))
     slopes[target.used] = jacobian[: int(target.used.sum())]
     fitted = counted & ~is_far
@@ -79,11 +78,17 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
         )
     with np.errstate(invalid="ignore", divide="ignore"):
         factors = np.sqrt(np.diag(discrepancy.covariance) / np.diag(inverse))
+    factors = np.where(np.isfinite(factors), np.maximum(factors, 1.0), 1.0)
+    everything = target.residuals(model.space, found.x, answer)
+    curvature, variance = _search.robust_factors(everything, target.loss, good.freedom)
+    if discrepancy.listed:
+        # The discrepancy contains the excess of the residuals.
+        variance = _search.NORMAL_VARIANCE[target.loss]
     return Assessed(
-        _search.without(inverse, lost),
-        _search.without(discrepancy.covariance, lost),
-        np.where(np.isfinite(factors), np.maximum(factors, 1.0), 1.0),
-        jacobian,
+        _search.without(inverse / curvature, lost),
+        _search.without(variance * discrepancy.covariance, lost),
+        factors * np.sqrt(variance * curvature),
+        jacobian * np.sqrt(curvature),
         discrepancy,
         good,
         _listed(sets, scaled, is_far),

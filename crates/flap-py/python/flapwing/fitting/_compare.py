@@ -32,7 +32,8 @@ class ComparedFit:
     name : str
         The name of the fit.
     parameters : int
-        Number of free parameters. Each standard error that was estimated from the residuals counts as one parameter.
+        Number of free parameters, or combinations of free parameters, that the readings and priors determine. Each
+        standard error that was estimated from the residuals counts as one parameter.
     chi_square : float
         Chi-square: the sum of the squares of (residual / standard error) over all readings. The sum includes the
         residuals of priors. If standard errors were estimated, chi-square contains no information about the fit.
@@ -51,7 +52,10 @@ class ComparedFit:
         readings.
     held_out_score : float
         Mean logarithm of the predicted probability density of a reading that was not fitted, over the readings of
-        `held_out_rms`. A higher `held_out_score` is better. `held_out_score` is nan if there are no such readings.
+        `held_out_rms`. A higher `held_out_score` is better. The density contains the errors of the parameters, the
+        discrepancy of the model, and the noise of the reading. `held_out_score` is nan if there are no such readings.
+        `held_out_score` is also nan if a prediction has no error, or depends on a parameter that the fitted readings do
+        not determine.
     """
 
     name: str
@@ -221,6 +225,9 @@ class Comparison:
         for count, kind in ((self.left_out, "readings"), (self.held_out_left_out, "held-out readings")):
             if count:
                 lines.append(f"{kind} that are not compared, because a fit has no settled motion there: {count}")
+        for one in self.fits:
+            if measures and np.isnan(one.held_out_score):
+                lines.append(f"{one.name} has no log score: the errors of some held-out predictions are unknown")
         return "\n".join([*lines, self.verdict])
 
     def __repr__(self) -> str:
@@ -288,8 +295,8 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
         raise ValueError("no reading has a settled motion in all fits\ncompare fits that settle at the same readings")
     sides = []
     for name, one, answer in zip(named, listed, answers):
-        found = criteria(one._sets, one._model.space, one._x, answer.values, common)
-        sides.append(Side(name, one, answer.values, answer.slopes, found))
+        found = criteria(one._sets, one._model.space, one._x, answer, common)
+        sides.append(Side(name, one, answer.values, one._errors_of_readings(answer), found))
     return Comparison(sides)
 
 
@@ -330,11 +337,10 @@ def _held_out_rms(side: Side, predicted: Mask) -> dict[str, float]:
 
 
 def _held_out_score(side: Side, predicted: Mask) -> float:
-    """Return the mean log density of the readings in the mask `predicted`. Return nan if the mask is empty."""
-    if not predicted.any():
+    """Return the mean log density of the readings in the mask `predicted`. Return nan if the mask is empty, or if the
+    error of a prediction is unknown."""
+    variance = side.errors[predicted] ** 2
+    if not predicted.any() or not np.isfinite(variance).all():
         return float("nan")
-    known = np.where(np.isfinite(side.fit._covariance), side.fit._covariance, 0.0)
-    slopes = side.slopes[predicted]
-    variance = side.criteria.sigma[predicted] ** 2 + np.maximum(0.0, np.einsum("ij,jk,ik->i", slopes, known, slopes))
     error = side.values[predicted] - all_readings(side.fit._sets)[predicted]
     return float(np.mean(-0.5 * error**2 / variance - 0.5 * np.log(2.0 * np.pi * variance)))

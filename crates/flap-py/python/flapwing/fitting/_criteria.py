@@ -9,8 +9,9 @@ import numpy as np
 
 from .._types import Array, Mask
 from ._data import DataSet, all_readings, are_unknown, estimating
+from ._model import Answer
 from ._parameters import Space
-from ._search import sigmas
+from ._search import Target, determined, sigmas
 
 
 @dataclass(frozen=True)
@@ -21,29 +22,32 @@ class Criteria:
     log: Array
     #: The standard error of each reading. An unknown standard error has the most likely value.
     sigma: Array
-    #: Number of free parameters and of estimated standard errors.
+    #: Number of parameters that the readings and priors determine, plus the number of estimated standard errors.
     parameters: int
+    estimated: int
     chi_square: float
     deviance: float
     aicc: float
     bic: float
 
 
-def criteria(sets: Sequence[DataSet], space: Space, x: Array, values: Array, counted: Mask) -> Criteria:
-    """Return the criteria of a fit that ends at the coordinates `x`, for the counted readings. `values` has the model's
-    value of each reading.
+def criteria(sets: Sequence[DataSet], space: Space, x: Array, answer: Answer, counted: Mask) -> Criteria:
+    """Return the criteria of a fit that ends at the coordinates `x`, for the counted readings. `answer` has the model's
+    values of all readings.
     """
+    values, measured = answer.values, all_readings(sets)
     log, sigma, estimated = _log_likelihoods(sets, values, counted)
     priors = space.prior(x)[0]
-    error = (np.where(np.isfinite(values), values, 0.0) - all_readings(sets)) / sigma
+    error = (np.where(np.isfinite(values), values, 0.0) - measured) / sigma
     chi_square = float(np.sum(error[counted] ** 2) + priors @ priors)
     deviance = float(-2.0 * np.sum(log[counted]) + priors @ priors)
-    count, readings = len(space) + estimated, int(counted.sum())
+    jacobian = Target(measured, sigma, counted, "linear").jacobian(space, x, answer)
+    count, readings = determined(jacobian) + estimated, int(counted.sum())
     left = readings - count - 1
     # AICc is infinite for too few readings.
     correction = 2.0 * count * (count + 1) / left if left > 0 else np.inf
     aicc, bic = deviance + 2.0 * count + correction, deviance + count * float(np.log(readings))
-    return Criteria(log, sigma, count, chi_square, deviance, float(aicc), bic)
+    return Criteria(log, sigma, count, estimated, chi_square, deviance, float(aicc), bic)
 
 
 def _log_likelihoods(sets: Sequence[DataSet], values: Array, counted: Mask) -> tuple[Array, Array, int]:

@@ -24,8 +24,8 @@ class Side:
     name: str
     fit: Fit
     values: Array
-    #: Derivatives of the values with respect to the coordinates of the fit.
-    slopes: Array
+    #: Standard errors of the predictions of all readings, with discrepancy and noise.
+    errors: Array
     criteria: Criteria
 
 

@@ -57,7 +57,8 @@ class Discrepancies:
     #: The discrepancy of each measure, in the form of standard errors.
     noise: dict[str, Noise]
     covariance: Array
-    #: Number of independent readings less the number of parameters; infinite without discrepancy.
+    #: Number of independent readings less the number of parameters that readings determine; infinite without
+    #: discrepancy.
     freedom: float
 
 
@@ -126,7 +127,9 @@ def of_residuals(
     kept = np.concatenate([*measures.values()])
     lost = (1.0 - base[kept])[:, np.newaxis] * jacobian[kept]
     covariance = inverse + inverse @ (spread - lost.T @ jacobian[kept]) @ inverse
-    return Discrepancies(listed, noises, covariance, sum(independent) - len(inverse))
+    # The readings determine this number of coordinates. Priors determine the others.
+    parameters = float(np.sum(inverse * (jacobian.T @ jacobian)))
+    return Discrepancies(listed, noises, covariance, sum(independent) - parameters)
 
 
 def _likeness(layout: Layout, chosen: Places, scaled: Array, shape: Array) -> dict[str, float]:

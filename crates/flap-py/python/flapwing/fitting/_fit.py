@@ -22,7 +22,7 @@ from ._solution import Effort, Estimate, Unsettled
 from ._spread import new_spreads, spreads
 
 #: Largest number of rounds in which standard errors and spreads that depend on the fit are updated.
-_ROUNDS = 4
+_ROUNDS = 10
 
 
 def fit(
@@ -62,7 +62,8 @@ def fit(
         unit, text such as ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one standard error for
         each measure. By default, the standard error is estimated from the residuals.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
-        The loss function. All loss functions except ``"linear"`` reduce the weight of outliers.
+        The loss function. All loss functions except ``"linear"`` reduce the weight of outliers. With these loss
+        functions, errors and intervals contain the variance of an M-estimator.
     starts : int
         Number of searches. The first search starts at the design's values, and the remaining searches start at the best
         points of a Sobol' sequence.
@@ -120,7 +121,7 @@ def fit(
     held = _held.held_rows(hold_out, sets, seed, len(measured), names)
     with shown(progress) as show:
         model = Model(names, sets, space, keywords, threads, None if show is None else lambda ran: show(ran, ran), held)
-        _check_count(model, sets, len(measured) - int(held.sum()))
+        _check_count(model, held)
         guesses = _search.first_guesses(sets)
         target = Target(measured, _search.sigmas(sets, np.full(len(measured), np.nan), guesses), ~held, loss)
         ends = _search.from_all(model, target, _search.starts(model, target, int(starts), seed))
@@ -143,7 +144,7 @@ def finish(
     """
     target, found, answer = _settle(model, sets, target, ends[0], guesses)
     readings = int((target.used & np.isfinite(answer.values)).sum()) + len(model.space.prior(found.x)[0])
-    if readings <= len(model.space):
+    if readings <= _search.determined(target.jacobian(model.space, found.x, answer)):
         raise ValueError(_too_few(model, sets, found, answer, held))
     result = assess(model, sets, target, found, answer)
     profiles, better = None, None
@@ -196,22 +197,21 @@ def _settle(
     """Run the last search of a fit. The search is repeated until the standard errors and spreads before and after the
     search agree. Readings without a settled motion are left out.
     """
-    found = best
+    found = _search.polish(model, target, best.x)
     for _ in range(_ROUNDS):
-        found = _search.polish(model, target, found.x)
         answer = model.at([found.x], rtol=FINE)[0]
         used = target.used & np.isfinite(answer.values)
-        _search.new_guesses(sets, target, used, answer, len(model.space), guesses)
+        parameters = _search.followed(model.space, target, found.x, answer)
+        _search.new_guesses(sets, target, used, answer, parameters, guesses)
         sigma = _search.sigmas(sets, answer.values, guesses)
-        before, beside = target, model.space.spreads
-        target = Target(target.measured, sigma, used, target.loss)
-        new = new_spreads(model.space, target, found.x, answer)
-        is_same = bool(np.allclose(sigma, before.sigma, rtol=0.01) and (used == before.used).all())
-        if is_same and np.allclose(list(new.values()), list(beside.values()), rtol=0.01, atol=0.0):
-            target = before
+        after = Target(target.measured, sigma, used, target.loss)
+        before, new = model.space.spreads, new_spreads(model.space, after, found.x, answer)
+        is_same = bool(np.allclose(sigma, target.sigma, rtol=0.01) and (used == target.used).all())
+        if is_same and np.allclose(list(new.values()), list(before.values()), rtol=0.01, atol=0.0):
             break
-        model.space.spreads = new
-    return target, found, answer
+        target, model.space.spreads = after, new
+        found = _search.polish(model, target, found.x)
+    return target, found, model.at([found.x], rtol=FINE)[0]
 
 
 def _estimates(
@@ -294,12 +294,18 @@ def check_options(loss: Any, starts: Any, seed: Any) -> None:
     _arguments.count("seed", seed, least=0)
 
 
-def _check_count(model: Model, sets: list[DataSet], readings: int) -> None:
-    priors = len(model.space.prior(np.zeros(len(model.space)))[0])
-    if readings + priors <= len(model.space):
-        counted = f"{readings} reading{'s' * (readings != 1)}" + (f" and {priors} priors" if priors else "")
-        parameters = f"{len(model.space)} free parameter{'s' * (len(model.space) != 1)}"
+def _check_count(model: Model, held: Mask) -> None:
+    """Raise ValueError if there are too few readings. A parameter of a data set that is held out does not count, unless
+    the parameter has a prior.
+    """
+    readings, fitted = int((~held).sum()), [None, *model.asked.of_set[~held]]
+    priors = model.space.prior(np.zeros(len(model.space)))[1]
+    has_prior = priors.any(axis=0)
+    free = [one.label for one, known in zip(model.space.coordinates, has_prior) if one.of_set in fitted or known]
+    if readings + len(priors) <= len(free):
+        counted = f"{readings} reading{'s' * (readings != 1)}" + (f" and {len(priors)} priors" if len(priors) else "")
+        parameters = f"{len(free)} free parameter{'s' * (len(free) != 1)}"
         raise ValueError(
-            f"{parameters} but only {counted}: {', '.join(model.space.labels)}\n"
+            f"{parameters} but only {counted}: {', '.join(free)}\n"
             "a fit requires more readings than parameters: free fewer parameters, add readings, or give priors"
         )

@@ -35,9 +35,9 @@ class Profile:
     value : array
         Values of the parameter in SI units, in rising order.
     rise : array
-        The signed square root of the increase of the cost at each value, in standard errors that contain the
-        discrepancy of the model. `rise` is 0 at the estimate, and nearly a linear function of the parameter if the data
-        determine the parameter well.
+        The signed square root of the increase of the cost at each value, in standard errors of the parameter. The
+        standard errors contain the discrepancy of the model and the variance of a robust loss. `rise` is 0 at the
+        estimate, and nearly a linear function of the parameter if the data determine the parameter well.
     low, high : float
         Lower and upper end of the parameter's 95 % interval, in SI units.
     open_below, open_above : bool
@@ -73,9 +73,9 @@ class _Side:
 
 @dataclass(frozen=True)
 class _ProfileSearch:
-    """The fit from which profiles begin: readings, estimate, and the covariance without the discrepancy of the model. A
-    profile ends at a distance of `quantile` standard errors from the estimate. The standard errors contain the
-    discrepancy.
+    """The fit from which profiles begin: readings, estimate, and the inverse of the curvature of the cost. Profiles
+    end at a distance of `quantile` standard errors from the estimate. The standard errors contain the discrepancy of
+    the model and the variance of a robust loss.
     """
 
     space: Space
@@ -149,8 +149,8 @@ def profiles(
     model: Model, target: Target, found: Found, covariance: Array, quantile: float, factors: Array
 ) -> tuple[list[Profile], Found | None]:
     """Return the profiles of all coordinates up to `quantile` standard errors. If a search for a profile finds a better
-    fit than the estimate, return the better fit too. `factors` has the factor by which the discrepancy of the model
-    increases each coordinate's standard error.
+    fit than the estimate, return the better fit too. `factors` has the standard error of each coordinate, divided by
+    the standard error that belongs to the curvature of the cost.
     """
     space = model.space
     search = _ProfileSearch(space, target, found, covariance, quantile, factors)

@@ -14,6 +14,7 @@ from .._flapwing import Grid
 from .._types import Array, Mask, Value
 from . import _device, _plan, _report, _search, _solution
 from ._data import all_readings
+from ._model import Answer
 from ._noise import Noise, parse_noise
 from ._plan import NextMeasurements
 from ._points import answers_at, cell, error_of, points_of
@@ -145,7 +146,7 @@ class Fit(Solution):
         answer = answers_at(self._model, given, measure, self._x, place, like)
         error = np.hypot(error_of(answer, self._covariance), self._discrepancy_of(measure, answer.values))
         if noise is not None:
-            error = np.hypot(error, noise.of(answer.values, answer.values, self._guesses[measure]))
+            error = np.hypot(error, noise.of(answer.values, np.nan_to_num(answer.values), self._guesses[measure]))
         unit = self._model.names.unit(measure)
         with np.errstate(invalid="ignore"):
             low, high = answer.values - self._quantile * error, answer.values + self._quantile * error
@@ -286,15 +287,24 @@ class Fit(Solution):
         noise = self._discrepancy.get(measure)
         return np.zeros(len(values)) if noise is None else noise.of(values, np.nan_to_num(values), 1.0)
 
-    def _predict_held_out(self, held: Mask) -> None:
-        """Compute `held_out`: predictions of the readings in the mask `held`."""
-        answer = self._model.everything(self._x)
+    def _errors_of_readings(self, answer: Answer) -> Array:
+        """Return the standard errors of the predictions of all readings.
+
+        The errors contain the errors of the parameters, the discrepancy of the model, and the noise of the readings. An
+        error is infinite if a prediction depends on a parameter that the data do not determine.
+        """
         error = np.hypot(error_of(answer, self._covariance), _search.sigmas(self._sets, answer.values, self._guesses))
         names = np.array(self._model.asked.measure)
         for measure in self._discrepancy:
             mine = names == measure
             error[mine] = np.hypot(error[mine], self._discrepancy_of(measure, answer.values[mine]))
-        self.held_out = _solution.held_out(names, all_readings(self._sets), answer.values, held, self._quantile * error)
+        return error
+
+    def _predict_held_out(self, held: Mask) -> None:
+        """Compute `held_out`: predictions of the readings in the mask `held`."""
+        answer = self._model.everything(self._x)
+        names, reach = np.array(self._model.asked.measure), self._quantile * self._errors_of_readings(answer)
+        self.held_out = _solution.held_out(names, all_readings(self._sets), answer.values, held, reach)
 
     def _target(self, target: str | Mapping[str, Any], data_set: str | None) -> tuple[Array, str, str, int]:
         """Return the derivatives of a target with respect to the search coordinates, and the target's name and unit.

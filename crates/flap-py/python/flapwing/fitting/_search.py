@@ -203,14 +203,25 @@ def sobol(space: Space, count: int, seed: int) -> list[Array]:
     return list(space.low + (space.high - space.low) * drawn)
 
 
-#: The loss functions of `scipy.optimize.least_squares`, and their derivatives: functions of squared residuals.
-LOSSES: dict[str, tuple[Callable[[Array], Array], Callable[[Array], Array]]] = {
-    "linear": (lambda z: z, np.ones_like),
-    "soft_l1": (lambda z: 2 * (np.sqrt(1 + z) - 1), lambda z: 1 / np.sqrt(1 + z)),
-    "huber": (lambda z: np.where(z <= 1, z, 2 * np.sqrt(z) - 1), lambda z: 1 / np.sqrt(np.maximum(z, 1.0))),
-    "cauchy": (np.log1p, lambda z: 1 / (1 + z)),
-    "arctan": (np.arctan, lambda z: 1 / (1 + z**2)),
+#: The loss functions of `scipy.optimize.least_squares`, and their first and second derivatives: functions of squared
+#: residuals.
+LOSSES: dict[str, tuple[Callable[[Array], Array], Callable[[Array], Array], Callable[[Array], Array]]] = {
+    "linear": (lambda z: z, np.ones_like, np.zeros_like),
+    "soft_l1": (lambda z: 2 * (np.sqrt(1 + z) - 1), lambda z: 1 / np.sqrt(1 + z), lambda z: -0.5 * (1 + z) ** -1.5),
+    "huber": (
+        lambda z: np.where(z <= 1, z, 2 * np.sqrt(z) - 1),
+        lambda z: 1 / np.sqrt(np.maximum(z, 1.0)),
+        lambda z: np.where(z <= 1, 0.0, -0.5 * np.maximum(z, 1.0) ** -1.5),
+    ),
+    "cauchy": (np.log1p, lambda z: 1 / (1 + z), lambda z: -1 / (1 + z) ** 2),
+    "arctan": (np.arctan, lambda z: 1 / (1 + z**2), lambda z: -2 * z / (1 + z**2) ** 2),
 }
+
+#: The variance of the estimates with each loss, relative to the linear loss, for normal residuals.
+NORMAL_VARIANCE = {"linear": 1.0, "soft_l1": 1.079, "huber": 1.107, "cauchy": 1.313, "arctan": 2.055}
+
+#: Smallest curvature of a robust cost, as a share of the mean weight of the residuals. Far outliers bend the cost down.
+_CURVATURE = 0.1
 
 
 def cost_of(residuals: Array, loss: str) -> float:
@@ -223,6 +234,22 @@ def weights(residuals: Array, loss: str) -> Array:
     residual.
     """
     return np.asarray(LOSSES[loss][1](residuals**2))
+
+
+def robust_factors(residuals: Array, loss: str, freedom: int) -> tuple[float, float]:
+    """Return the curvature of the cost, and the variance of the estimates. Both are relative to the linear loss.
+
+    The variance is the variance of an M-estimator, E[psi^2] / E[psi']^2 (Huber and Ronchetti 2009, chapter 7), and the
+    curvature is E[psi']. In these formulas, psi is the derivative of half of the loss with respect to the residual.
+    The variance is at least the variance for normal residuals, because a few residuals underestimate it.
+    """
+    if loss == "linear":
+        return 1.0, 1.0
+    squares = residuals**2
+    first, second = (function(squares) for function in LOSSES[loss][1:])
+    curvature = max(float(np.mean(first + 2 * squares * second)), _CURVATURE * float(np.mean(first)))
+    variance = float(np.sum(squares * first**2)) / max(1, freedom) / curvature**2
+    return curvature, max(variance, NORMAL_VARIANCE[loss])
 
 
 def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Found]:
@@ -266,7 +293,7 @@ def decompose(jacobian: Array) -> tuple[Array, Array, Array, Mask]:
     lengths[lengths == 0.0] = 1.0
     _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
     sizes = np.concatenate([sizes, np.zeros(len(directions) - len(sizes))])
-    return lengths, sizes, directions, sizes > NOTHING * sizes[0]
+    return lengths, sizes, directions, sizes > NOTHING * sizes.max(initial=0.0)
 
 
 def inverse(jacobian: Array) -> tuple[Array, Mask]:
@@ -276,6 +303,22 @@ def inverse(jacobian: Array) -> tuple[Array, Mask]:
     lengths, sizes, directions, known = decompose(jacobian)
     scaled = directions[known] / sizes[known, np.newaxis] / lengths
     return scaled.T @ scaled, np.sum(directions[~known] ** 2, axis=0) > 1e-4
+
+
+def determined(jacobian: Array) -> int:
+    """Return the number of coordinates, or combinations of coordinates, that the residuals determine: the rank of the
+    derivatives.
+    """
+    return int(decompose(jacobian)[3].sum())
+
+
+def followed(space: Space, target: Target, x: Array, answer: Answer) -> float:
+    """Return the number of coordinates that the readings determine: the trace of the hat matrix of the readings. A
+    coordinate that a prior determines alone does not count.
+    """
+    jacobian = target.jacobian(space, x, answer)
+    readings = jacobian[: int(target.used.sum())]
+    return float(np.sum(inverse(jacobian)[0] * (readings.T @ readings)))
 
 
 def without(covariance: Array, lost: Mask) -> Array:
@@ -304,10 +347,12 @@ def first_guesses(sets: list[DataSet]) -> dict[str, float]:
 
 
 def new_guesses(
-    sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: int, guesses: dict[str, float]
+    sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: float, guesses: dict[str, float]
 ) -> None:
-    """Update the estimates of unknown standard errors in `guesses`, from the residuals."""
-    freedom = max(1, int(used.sum()) - parameters) / max(1, int(used.sum()))
+    """Update the estimates of unknown standard errors in `guesses`, from the residuals. The readings determine a number
+    of `parameters` (see `followed`).
+    """
+    freedom = max(1.0, int(used.sum()) - parameters) / max(1, int(used.sum()))
     for measure in guesses:
         mine = estimating(sets, measure, used)
         residuals = (answer.values - target.measured)[mine]

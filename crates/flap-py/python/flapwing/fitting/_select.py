@@ -44,8 +44,9 @@ class SelectionStep:
     gain : float
         The decrease of the criterion in the step. For the first fit, `gain` is nan.
     p : float
-        The probability that noise alone improves the fit as much as the best of all candidate parameters. `p` is nan if
-        the step frees no parameter.
+        The probability that noise alone improves the fit as much as the best of all candidate parameters. With
+        estimated standard errors, `p` is computed by an F test, and otherwise by a chi-square test. `p` is nan if the
+        step frees no parameter.
     held_out : float
         Root mean square of the errors of all readings that were not fitted. Each error is divided by the standard error
         of its reading. `held_out` is nan if the selection has no `hold_out`.
@@ -269,7 +270,7 @@ def select(
                 stopped = f"the budget of {rhs_budget:.3g} right-hand sides is used"
                 break
             best, others = _best(work, state, predicted, tries)
-            p = _chance(state, best, work, len(more))
+            p = _chance(state, best, len(more))
             name = best.names[-1]
             if best.criterion >= state.criterion:
                 stopped = f"no candidate lowers the {criterion}"
@@ -329,12 +330,20 @@ def _best(work: Subsets, state: Subset, predicted: Mapping[str, Effect], tries: 
     return fitted[0], fitted[1:]
 
 
-def _chance(state: Subset, best: Subset, work: Subsets, count: int) -> float:
+def _chance(state: Subset, best: Subset, count: int) -> float:
     """Return the probability that noise alone improves the fit as much as the best of `count` candidates."""
-    from scipy.stats import chi2
+    from scipy.stats import chi2, f
 
-    freedom = len(work.space(best.names)) - len(work.space(state.names))
-    return float(min(1.0, count * chi2.sf(max(0.0, state.criteria.deviance - best.criteria.deviance), freedom)))
+    more, less = best.criteria, state.criteria
+    freedom, fall = more.parameters - less.parameters, max(0.0, less.deviance - more.deviance)
+    if freedom < 1:
+        return 1.0
+    if more.estimated:
+        # The F test, exact for one measure. Several measures count as one.
+        readings = int(np.isfinite(more.log).sum())
+        left = max(1, readings - more.parameters + more.estimated)
+        return float(min(1.0, count * f.sf(left / freedom * np.expm1(fall / readings), freedom, left)))
+    return float(min(1.0, count * chi2.sf(fall, freedom)))
 
 
 def _step_of(

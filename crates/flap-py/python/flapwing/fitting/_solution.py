@@ -160,7 +160,8 @@ class Residuals:
     measure, unit : str
         The measure whose residuals are listed, and the unit of the measure.
     values : array
-        Model minus reading, in the measure's unit. A residual is nan if the motion does not settle.
+        Model minus reading, in the measure's unit. A residual is nan if the reading was not fitted, or if the motion
+        does not settle.
     scaled : array
         The residuals divided by the standard errors of the readings.
     rms : float
@@ -190,7 +191,8 @@ class Goodness:
     chi_square : float
         Sum of the squares of (residual / standard error) over all readings.
     freedom : int
-        Degrees of freedom of the fit.
+        Degrees of freedom of the fit: the number of readings and priors, less the number of parameters that the
+        readings and priors determine.
     p : float
         The probability of a sum of squares of at least `chi_square`, if the model and the given standard errors are
         correct. `p` is nan if standard errors are estimated.

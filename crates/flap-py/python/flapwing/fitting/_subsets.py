@@ -103,7 +103,7 @@ class Subsets:
         self.fits += 1
         x, answer, target = self._searched(model, target, begin, known)
         self._note_bounds(space, x)
-        found = criteria(self.sets, space, x, answer.values, ~self.held)
+        found = criteria(self.sets, space, x, answer, ~self.held)
         return Subset(names, x, target, answer, known, found, found.aicc if self.criterion == "AICc" else found.bic)
 
     def _searched(
@@ -115,7 +115,8 @@ class Subsets:
             x = _search.polish(model, target, x, _COST).x
             answer = model.at([x], slopes=len(x) > 0, rtol=FINE)[0]
             used = target.used & np.isfinite(answer.values)
-            _search.new_guesses(self.sets, target, used, answer, len(x), guesses)
+            parameters = _search.followed(model.space, target, x, answer)
+            _search.new_guesses(self.sets, target, used, answer, parameters, guesses)
             before = target.sigma
             target = replace(target, sigma=_search.sigmas(self.sets, answer.values, guesses))
             if np.allclose(target.sigma, before, rtol=0.01):
