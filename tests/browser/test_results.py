@@ -291,6 +291,22 @@ def test_filters_are_typed_and_slid(page):
     assert page.value(low) == page.value(high) == "144"
 
 
+def test_axes_and_filters_have_the_shown_unit(page):
+    """The rows are in N·m/rad, and the page shows µN·m/rad."""
+    page.choose("x", "Hinge stiffness")
+    assert sorted({x for line in page.lines() for x in line["x"]}) == [90, 110]
+    for menu in page.find_all("#slices select"):
+        Select(menu).select_by_visible_text("all")
+    page.click("#add")
+    Select(page.find(".filter select")).select_by_visible_text("Hinge stiffness (µN·m/rad)")
+    low, high = ".filter .bounds input:first-child", ".filter .bounds input:last-child"
+    assert (page.value(low), page.value(high)) == ("90", "110")
+    page.type(low, "100")
+    assert page.value(low) == "100"
+    page.wait(lambda: page.text("#status").startswith(f"{7 * 21} of {7 * 21 * 2} rows shown"))
+    assert {x for line in page.lines() for x in line["x"]} == {110}
+
+
 def test_a_filter_that_is_wide_open_keeps_rows_without_a_value(open_page):
     page = open_page("unsettled", UNSETTLED, "--y", "lift_mean_mn")
     page.click("#add")

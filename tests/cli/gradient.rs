@@ -205,9 +205,16 @@ fn one_point_prints_the_parameters_that_move_a_measure_most() {
     assert_eq!(lines.len(), 11);
     // The same number as in the row of a sweep, in which the air follows the voltage.
     folder.ends(0, "sweep grid.toml --out rows.csv");
-    let swept = numbers(&folder.read("rows.csv"), "d_lift_mean_mn_per_pct_drive_frequency")[15];
+    let [swept, lift] = ["d_lift_mean_mn_per_pct_drive_frequency", "lift_mean_mn"]
+        .map(|name| numbers(&folder.read("rows.csv"), name)[15]);
     let line = lines.iter().find(|line| line[0] == "drive_frequency").unwrap();
-    let found: f64 = line[3].parse().unwrap();
+    let [found, percent] = [line[3], line[4]].map(|cell| cell.parse::<f64>().unwrap());
+    assert!((found / swept - 1.0).abs() < 1e-5, "{found} {swept}");
+    assert!((percent / (100.0 * swept / lift) - 1.0).abs() < 1e-5, "{percent} {swept} {lift}");
+    let json = folder.ends(0, "run grid.toml --point 15 --gradient lift_mean_mn --format json").stdout;
+    let slopes: Vec<serde_json::Value> = serde_json::from_str(&json).unwrap();
+    let slope = slopes.iter().find(|slope| slope["parameter"] == "drive_frequency").unwrap();
+    let found = slope["change_per_pct"].as_f64().unwrap();
     assert!((found / swept - 1.0).abs() < 1e-5, "{found} {swept}");
     let sizes: Vec<f64> =
         lines[1..].iter().map(|line| line[line.len() - 2].parse::<f64>().unwrap().abs()).collect();

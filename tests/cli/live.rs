@@ -134,7 +134,8 @@ fn a_device_is_saved_whole() {
     let point = live.answer("point", json!({ "design": design, "gradient": "lift_mean_mn" }));
     let place =
         |name: &str| point["columns"].as_array().unwrap().iter().position(|column| column == name).unwrap();
-    let lift = point["row"][place("lift_mean_mn")].as_f64().unwrap();
+    let lift_of = |answer: &Value| answer["row"][place("lift_mean_mn")].as_f64().unwrap();
+    let lift = lift_of(&point);
     let printed = folder.ends(0, "run saved.toml").stdout;
     let line = printed.lines().find(|line| line.starts_with("lift_mean_mn")).unwrap();
     let shown: f64 = line.split_whitespace().nth(1).unwrap().parse().unwrap();
@@ -143,13 +144,16 @@ fn a_device_is_saved_whole() {
     assert_eq!(point["modes"].as_array().unwrap().len(), 2);
     assert_eq!(point["published_modes"].as_array().unwrap().len(), 2);
     assert_ne!(point["modes"], point["published_modes"]);
-    let slopes: Vec<f64> = point["gradient"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .map(|slope| slope["per_percent"].as_f64().unwrap().abs())
-        .collect();
+    let gradient = point["gradient"].as_array().unwrap();
+    let per_percent = |slope: &Value| slope["per_percent"].as_f64().unwrap();
+    let slopes: Vec<f64> = gradient.iter().map(|slope| per_percent(slope).abs()).collect();
     assert!(slopes.len() > 10 && slopes.is_sorted_by(|one, next| one >= next), "{slopes:?}");
+    let [less, more] = [0.995, 1.005].map(|factor| {
+        let design = json!({ "wing_area": "50 mm^2", "hinge_stiffness": 2.2e-6 * factor });
+        lift_of(&live.answer("point", json!({ "design": design })))
+    });
+    let slope = per_percent(gradient.iter().find(|slope| slope["parameter"] == "hinge_stiffness").unwrap());
+    assert!((slope / (more - less) - 1.0).abs() < 1e-3, "{slope}, not {}", more - less);
 }
 
 #[test]

@@ -113,11 +113,29 @@ fn the_matrix_of_inputs_is_that_of_derivatives() {
     let folder = Folder::with_grid(&format!("{VEHICLE}{gradient}"));
     folder.ends(0, "sweep grid.toml --out rows.csv");
     let slope = column(&folder, "rows.csv", "d_torque_pitch_unm_per_pct_drive_offset")[0] / 0.05;
-    let text = folder.ends(0, "vehicle grid.toml --inputs bias --format csv").stdout;
-    let cells: Vec<&str> = text.lines().nth(2).unwrap().split(',').collect();
-    assert_eq!(&cells[..3], ["bias", "V", "5.0"], "{text}");
-    let found: f64 = cells[7].parse().unwrap();
-    assert!((found / slope - 1.0).abs() < 1e-6, "{found}, not {slope}");
+    let inputs = "--inputs bias,about_z,about_x,left_plane_pitch";
+    let text = folder.ends(0, &format!("vehicle grid.toml {inputs} --format csv")).stdout;
+    let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let number = |line: usize, place: usize| lines[line][place].parse::<f64>().unwrap();
+    let [forward, up] = [number(1, 3), number(1, 5)];
+    // Torques refer to a point, and the pitch of a stroke plane turns the lift of one of two wings forward.
+    for (line, input, place, slope, share) in [
+        (2, ["bias", "V", "5.0"], 7, slope, 1e-6),
+        (3, ["about_z", "mm", "-3.0"], 7, -forward, 1e-5),
+        (4, ["about_x", "mm", "0.0"], 7, up, 1e-5),
+        (5, ["left_plane_pitch", "deg", "0.0"], 3, 0.5 * up * 1.0_f64.to_radians(), 1e-5),
+    ] {
+        let found = number(line, place);
+        assert_eq!(&lines[line][..3], input, "{text}");
+        assert!((found / slope - 1.0).abs() < share, "{input:?}: {found}, not {slope}");
+    }
+    let pitch = [-2.9, -3.1].map(|mm| {
+        let ended = folder.ends(0, &format!("run grid.toml --set about_z={mm}mm --format csv"));
+        let line = ended.stdout.lines().find_map(|line| line.strip_prefix("torque_pitch_unm,")).unwrap();
+        line.split(',').next().unwrap().parse::<f64>().unwrap()
+    });
+    let [found, difference] = [number(3, 7), (pitch[0] - pitch[1]) / 0.2];
+    assert!((found / difference - 1.0).abs() < 1e-4, "{found}, not {difference}");
     folder.ends(0, "vehicle grid.toml").prints("amplitude_difference").prints("roll").prints("+1.00 bias");
     folder.ends(0, "vehicle grid.toml --format json").prints("\"torque_yaw_unm\"");
 }
@@ -144,6 +162,13 @@ fn trims_reach_their_targets() {
     let run = folder.ends(0, &format!("run grid.toml {set}")).stdout;
     let lift = run.lines().find(|line| line.starts_with("force_up_mn")).unwrap();
     assert!(lift.contains("2.1 ") || lift.contains("2.09999") || lift.contains("2.10000"), "{lift}");
+    let text =
+        folder.ends(0, "vehicle grid.toml --inputs about_x --trim torque_pitch=0.5 --format csv").stdout;
+    let cell = |line: usize, place: usize| {
+        text.lines().nth(line).unwrap().split(',').nth(place).unwrap().parse::<f64>().unwrap()
+    };
+    // A lever of the lift in mm.
+    assert!((cell(2, 2) * cell(1, 5) / 0.5 - 1.0).abs() < 1e-5, "{text}");
     folder.refuses(
         &format!("vehicle grid.toml {inputs} --trim force_up=50"),
         "the targets are not reached: force_up_mn",

@@ -85,12 +85,17 @@ def test_a_file_is_not_overwritten_unasked(flap, grid, tmp_path):
     assert out.read_text(encoding="utf-8") == "mine"
 
 
-def test_linear_is_the_exported_model(flap, grid, tmp_path):
-    flap("vehicle", grid, *SET, "--export", tmp_path / "hover.json")
-    file = json.loads((tmp_path / "hover.json").read_text(encoding="utf-8"))
+@pytest.fixture
+def robot():
+    """The vehicle of GRID."""
     place = ["0 mm", "2 mm", "0 mm"]
     wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
-    robot = flapwing.Vehicle("jafferis2016", wings, about=["0 mm", "0 mm", "-3 mm"], total_mass="69 mg")
+    return flapwing.Vehicle("jafferis2016", wings, about=["0 mm", "0 mm", "-3 mm"], total_mass="69 mg")
+
+
+def test_linear_is_the_exported_model(flap, grid, robot, tmp_path):
+    flap("vehicle", grid, *SET, "--export", tmp_path / "hover.json")
+    file = json.loads((tmp_path / "hover.json").read_text(encoding="utf-8"))
     model = robot.linear(drive_voltage_pp="140 V", drive_frequency="120 Hz", **INERTIA)
     for name in ("A", "B", "damping", "control_matrix", "W0", "inputs", "states"):
         assert np.array_equal(np.asarray(getattr(model, name)), np.asarray(file[name])), name
@@ -99,3 +104,19 @@ def test_linear_is_the_exported_model(flap, grid, tmp_path):
     assert model.modes[0] == "pitch and forward velocity (longitudinal oscillation)"
     with pytest.raises(ValueError, match="body_inertia_roll"):
         robot.linear()
+
+
+def test_control_matrices_are_in_si_units(robot):
+    """The command shows these inputs in mm and deg."""
+    inputs = ["about_x", "left_plane_pitch"]
+    values = {"drive_voltage_pp": 140.0, "drive_frequency": 120.0, "about_x": 1e-3}
+    model = robot.linear(inputs=inputs, **values, **INERTIA)
+    assert model.input_units == ["m", "rad"] and model.input_values == pytest.approx([1e-3, 0.0], rel=1e-12)
+    wrench = [f"force_{name}_mn" for name in ("forward", "left", "up")]
+    wrench += [f"torque_{name}_unm" for name in ("roll", "pitch", "yaw")]
+    table = flapwing.evaluate(robot, values, measures=wrench, gradient=inputs)
+    to_si = np.repeat([1e-3, 1e-6], 3)[:, None]
+    assert np.allclose(model.control_matrix, to_si * table.gradient[0], rtol=1e-6, atol=1e-15)
+    # The lift has the lever about_x, and the pitch of a stroke plane turns the lift of its wing forward.
+    assert model.control_matrix[4, 0] == pytest.approx(model.W0[2], rel=1e-5)
+    assert model.control_matrix[0, 1] == pytest.approx(model.W0[2] / 2, rel=1e-5)

@@ -113,12 +113,32 @@ def test_resonances(flap):
         row["resonance"]: row
         for row in csv.DictReader(flap("test", "resonance", "ozaki2018-large", "--format", "csv").stdout.splitlines())
     }
-    assert found.driven[0].frequency_hz == float(printed["driven_1"]["frequency_hz"])
-    assert found.impulse_fit.decay_1_s == float(printed["impulse_fit"]["decay_1_s"])
-    assert found.linear_hz["mode_1"] == float(printed["mode_1"]["frequency_hz"])
-    assert found.stroke_spectrum_hz[0] == float(printed["stroke_spectrum_1"]["frequency_hz"])
+
+    def hertz(*names):
+        return [float(printed[name]["frequency_hz"]) for name in names]
+
+    (peak,), fit = found.driven, found.impulse_fit
+    assert [peak.frequency_hz] == hertz("driven_1")
+    assert list(found.linear_hz.items()) == list(zip(["mode_1", "mode_2"], hertz("mode_1", "mode_2"), strict=True))
+    assert found.stroke_spectrum_hz == hertz("stroke_spectrum_1")
+    assert found.pitch_spectrum_hz == hertz("pitch_spectrum_1", "pitch_spectrum_2")
+    for name in ["frequency_hz", "decay_1_s", "relative_rms"]:
+        assert getattr(fit, name) == float(printed["impulse_fit"][name]), name
+    assert fit.frequency_hz == pytest.approx(107.9, abs=0.1)
+    row = flapwing.run("ozaki2018-large", drive_frequency=peak.frequency_hz)
+    for name in ["stroke_pp_deg", "pitch_pp_deg"]:
+        assert getattr(peak, name) == pytest.approx(row[name], rel=1e-4), name
     assert math.isnan(found.larger_at_hz) and found.gaps == []
     assert flapwing.resonance("ozaki2018-large", start=115, stop=130).larger_at_hz == 115
+
+
+def test_resonances_count_gaps():
+    found = flapwing.resonance("ozaki2018-large", max_cycles=3)
+    (gap,) = found.gaps
+    # The search begins at half the lowest natural frequency, and ends at 1.5 times the highest.
+    ends = (0.5 * found.linear_hz["mode_1"], 1.5 * found.linear_hz["mode_2"])
+    assert (gap.start_hz, gap.stop_hz) == pytest.approx(ends, rel=1e-9)
+    assert gap.status == "unsettled" and found.driven == []
 
 
 def test_parameters_and_measures():

@@ -24,6 +24,7 @@ def test_sensitivities_are_those_of_single_runs(sensitivities):
         assert each.low == flapwing.run("ozaki2018-large", **{each.parameter: each.below})["lift_mean_mn"]
         assert each.high == flapwing.run("ozaki2018-large", **{each.parameter: each.above})["lift_mean_mn"]
         assert each.base == flapwing.run("ozaki2018-large")["lift_mean_mn"]
+        assert each.swing == max(abs(each.low - each.base), abs(each.high - each.base))
         assert each.measure_unit == "mN"
 
 

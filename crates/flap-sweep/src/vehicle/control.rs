@@ -569,3 +569,40 @@ impl Effectiveness {
         modes.collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn modes(matrix: DMatrix<f64>) -> Vec<Mode> {
+        let (inputs, values, row) = (Vec::new(), Vec::new(), Row::invalid(""));
+        Effectiveness { inputs, values, wrench: [0.0; 6], matrix, row }.modes()
+    }
+
+    #[test]
+    fn a_combination_of_one_input_has_the_sign_of_its_effect() {
+        let mode = modes(DMatrix::from_column_slice(6, 1, &[0.0, 0.0, 0.0, 0.0, -0.05, 0.0])).remove(0);
+        assert!((mode.size - 0.05).abs() < 1e-12, "{mode:?}");
+        assert!((mode.inputs[0] - 1.0).abs() < 1e-12, "{mode:?}");
+        assert!((mode.components[4] + 1.0).abs() < 1e-12, "{mode:?}");
+    }
+
+    /// The matrix times the inputs of a combination is its size times its force and torque.
+    #[test]
+    fn combinations_have_the_effect_of_the_matrix() {
+        let matrix = DMatrix::from_fn(6, 3, |i, j| (1.3 * i as f64 + 0.7 * (i * j) as f64 + 2.9).sin());
+        let modes = modes(matrix.clone());
+        assert_eq!(modes.len(), 3);
+        assert!(modes.is_sorted_by(|one, next| one.size >= next.size), "{modes:?}");
+        for mode in modes {
+            let inputs = DVector::from_vec(mode.inputs.clone());
+            let components = DVector::from_column_slice(&mode.components);
+            assert!((&matrix * &inputs - mode.size * &components).amax() < 1e-12, "{mode:?}");
+            assert!(
+                (inputs.norm() - 1.0).abs() < 1e-12 && (components.norm() - 1.0).abs() < 1e-12,
+                "{mode:?}"
+            );
+            assert!(inputs[inputs.iamax()] > 0.0, "{mode:?}");
+        }
+    }
+}

@@ -591,6 +591,35 @@ mod tests {
     }
 
     #[test]
+    fn the_fastest_growing_mode_can_decay() {
+        let decays =
+            [(0, 0, -4e-4), (1, 1, -6e-4), (2, 2, -7e-4), (3, 3, -1e-8), (4, 4, -9e-9), (5, 5, -3.2e-8)];
+        let restoring = [(4, 0, -1.3125e-9), (3, 1, 4e-9)];
+        let model = model(&damping(&[&decays[..], &restoring].concat()));
+        // λ (λ + 4) (λ + 3) − g M_u / I_y = λ³ + 7 λ² + 12 λ + 4.375 has the roots −0.5, −1.90 and −4.60.
+        // λ (λ + 6) (λ + 5) + g L_v / I_x = λ³ + 11 λ² + 30 λ + 20 has the roots −1, −2.76 and −7.24.
+        let fastest = model.fastest_growing().expect("a mode");
+        assert!((fastest.eigenvalue - Complex::new(-0.5, 0.0)).norm() < 1e-9, "{fastest:?}");
+        // The heading has the eigenvalue zero.
+        assert_eq!(model.modes[0].eigenvalue.re, 0.0);
+        assert!((model.modes[2].eigenvalue.re + 1.0).abs() < 1e-9, "{:?}", model.modes[2]);
+    }
+
+    #[test]
+    fn the_residual_refers_to_the_weight_and_a_lever_of_1_mm() {
+        // The weight is 1e-3 N.
+        for (wrench, expected) in [
+            (HOVER, 0.0),
+            ([0.0, 2e-5, 1e-3, 0.0, 0.0, 0.0], 0.02),
+            ([0.0, 0.0, 1e-3, 0.0, 3e-8, 0.0], 0.03),
+            ([-1e-5, 0.0, 0.96e-3, 0.0, 0.0, -2e-8], 0.04),
+        ] {
+            let found = residual_share(&BODY, &wrench);
+            assert!((found - expected).abs() < 1e-12, "{found}, not {expected}");
+        }
+    }
+
+    #[test]
     fn missing_and_impossible_mass_properties() {
         let of = |body: MassProperties| check(&body).map_err(|error| error.to_string());
         let unset = MassProperties { mass: f64::NAN, inertia: [2e-9, 3e-9, f64::NAN], ..BODY };

@@ -310,6 +310,31 @@ mod tests {
         assert!(with > 1.1 * without, "{with} {without}");
     }
 
+    /// The time follows from the work of all points in the time of the sample, with half of the work of running points.
+    #[test]
+    fn seconds_are_the_work_of_the_sweep_over_the_speed_of_the_sample() {
+        let grid = "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [95, 105]\n";
+        let plan =
+            flap_sweep::grid::parse("grid.toml", grid, all()).unwrap_or_else(|error| panic!("{error:?}"));
+        let trial = Trial {
+            took: Duration::from_secs(2),
+            works: vec![100.0, 300.0],
+            begun: 10,
+            done: 8,
+            work: 1000.0,
+            ..Trial::run(&plan, 1)
+        };
+        // The work in 2 s is 1000, and half of 200 for each of 2 running points.
+        let near = |points: u64, seconds: f64, error: f64| {
+            let [low, high] = trial.seconds(points).unwrap();
+            assert!((low * (1.0 + error) / seconds - 1.0).abs() < 1e-12, "{points}: {low}");
+            assert!((high / (1.0 + error) / seconds - 1.0).abs() < 1e-12, "{points}: {high}");
+        };
+        near(2, 2.0 * 200.0 * 2.0 / 1200.0, 0.1);
+        // 2 of 100 works, with a sample variance of 20 000 and a mean of 200: twice the standard error of the mean.
+        near(100, 100.0 * 200.0 * 2.0 / 1200.0, 2.0 * (0.98_f64 * 20_000.0 / 2.0).sqrt() / 200.0);
+    }
+
     /// If the sample contains all points of the plan, the only error of the estimate is the varying speed of the
     /// machine.
     #[test]
