@@ -152,7 +152,7 @@ def test_a_tornado_of_a_sample(sample, tmp_path):
         assert len(plot.tornado(path, "power_mean_mw", ["hinge_stiffness"]).patches) == 1
 
 
-@pytest.mark.parametrize("function", [plot.scatter, plot.pareto, plot.histogram, plot.tornado, analysis.describe])
+@pytest.mark.parametrize("function", [plot.scatter, plot.histogram, plot.tornado, analysis.describe])
 def test_of_axes_beside_a_sample_a_value_is_chosen(crossed, function):
     with pytest.warns(UserWarning, match="drive_frequency = 105 Hz, the middle of 3 values"):
         function(crossed)
@@ -161,12 +161,18 @@ def test_of_axes_beside_a_sample_a_value_is_chosen(crossed, function):
         function(crossed, drive_frequency=105.0)
 
 
-@pytest.mark.parametrize("function", [plot.scatter, plot.pareto])
-def test_an_axis_that_gives_the_colours_has_all_its_values(crossed, function):
-    (points,) = drawn(function(crossed, color="drive_frequency")).collections
+def test_an_axis_that_gives_the_colours_has_all_its_values(crossed):
+    (points,) = drawn(plot.scatter(crossed, color="drive_frequency")).collections
     assert len(points.get_offsets()) == 120
     with pytest.warns(UserWarning, match="drive_frequency = 105 Hz"):
-        assert len(function(crossed).collections[0].get_offsets()) == 40
+        assert len(plot.scatter(crossed).collections[0].get_offsets()) == 40
+
+
+def test_a_front_has_all_designs(crossed):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        points = plot.pareto(crossed).collections[0]
+    assert len(points.get_offsets()) == 120
 
 
 def test_all_designs_of_a_grid_without_a_sample_are_used():

@@ -52,7 +52,7 @@ pub(crate) struct PlotArgs {
     /// several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. Text in a comparison is in
     /// quotes: "device == 'long'". If the picture does not show an axis of
     /// the sweep, flap draws only the rows at the middle value of this axis. Use --where to choose a different value of
-    /// the axis.
+    /// the axis. A Pareto front has the designs at all values.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 

@@ -168,12 +168,12 @@ pub(super) fn aims(request: &Request, columns: &Columns) -> (Aim, Aim) {
 /// Returns the axes that the picture does not show.
 fn hidden(columns: &Columns, axes: &Axes) -> Vec<usize> {
     use PictureKind::{Histogram, Matrix, Pareto, Scatter, Tornado, Trajectory};
-    let color = columns.color.filter(|_| matches!(columns.kind, Scatter | Pareto));
+    let color = columns.color.filter(|_| columns.kind == Scatter);
     let shown = [Some(columns.x), Some(columns.y), columns.by, color];
     let is_hidden = |column: &usize| match columns.kind {
-        Trajectory | Matrix => false,
+        Pareto | Trajectory | Matrix => false,
         // All designs of a grid are drawn; for a sample crossed with axes, all points of the sample.
-        Scatter | Histogram | Tornado | Pareto => axes.sampled && !axes.sample.contains(column),
+        Scatter | Histogram | Tornado => axes.sampled && !axes.sample.contains(column),
         _ => true,
     };
     axes.columns

@@ -52,9 +52,7 @@ def pareto(
     where, **slices
         Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
         values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. The picture
-        has the designs at all values of the axes of a grid. A grid can also combine a sample with an axis. If this axis
-        is neither an objective nor `color`, the picture has only the rows at the middle value of the axis. A warning
-        shows the middle value that was used.
+        has the designs at all other values, also if a grid combines a sample with an axis.
     legend : bool or str
         If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
         inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
@@ -93,7 +91,6 @@ def pareto(
     objectives = [*smaller, *larger]
     if len(objectives) < 2 or len(set(objectives)) < len(objectives):
         raise ValueError(f"at least two different objectives are required, not {objectives}")
-    data = data.one_sample([*objectives, *([] if color is None else [color])])
     # A cost is drawn along x. If both objectives are costs or benefits, the first is.
     names = [smaller[0], larger[0]] if smaller and larger else objectives[:2]
     costs = np.column_stack([data.numbers(name) for name in smaller] + [-data.numbers(name) for name in larger])
