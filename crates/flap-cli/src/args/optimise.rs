@@ -31,8 +31,8 @@ pub(crate) struct OptimiseArgs {
     #[arg(long = "where", value_name = "COMPARISON")]
     pub(crate) conditions: Vec<String>,
 
-    /// Compute a Pareto front of at most N designs for two goals, from the best value of one goal to the best value of
-    /// the other.
+    /// Compute a Pareto front of two goals with at most N designs, each the best for a limit on the other goal
+    ///
     /// --points requires both --maximise and --minimise
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=10_000), conflicts_with = "out")]
     pub(crate) points: Option<u32>,

@@ -60,14 +60,14 @@ pub(crate) struct PlotArgs {
     /// values of this axis. You can repeat --best-over
     ///
     /// The best row is the row with the largest value of the measure. For power, current, strain, field, drag,
-    /// the force of a plate and hover_growth_1_s, the best row is the row with the smallest value. With --where, flap chooses the best
-    /// row only among the rows that satisfy the conditions. Without --best-over, flap draws the rows at the middle value
-    /// of the axis.
+    /// force_1, force_2 and hover_growth_1_s, the best row has the smallest value. With --where, flap
+    /// chooses the best row only among the rows that satisfy the conditions. Without --best-over, flap draws the rows at
+    /// the middle value of the axis.
     #[arg(long, value_name = "COLUMN")]
     pub(crate) best_over: Vec<String>,
 
     /// Better direction of the column x in a Pareto picture [default: min for power, current, strain, field,
-    /// drag, the force of a plate and hover_growth_1_s, max for other columns]
+    /// drag, force_1, force_2 and hover_growth_1_s, max for other columns]
     #[arg(long, value_enum)]
     pub(crate) x_aim: Option<Aim>,
 

@@ -25,8 +25,8 @@ const HEAD: &str = "\
 /// numbers, bit for bit.
 ///
 /// # Errors
-/// [`UserError`] if a derived parameter depends on an axis or has a value that is not allowed, and if the drive
-/// frequency is the resonance of each design.
+/// - [`UserError`] if a derived parameter depends on an axis or has a value that is not allowed.
+/// - [`UserError`] if the drive frequency is the resonance of each design.
 ///
 /// ```
 /// use flap_sweep::grid;

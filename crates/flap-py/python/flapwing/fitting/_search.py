@@ -239,7 +239,7 @@ def weights(residuals: Array, loss: str) -> Array:
 def robust_factors(residuals: Array, loss: str, freedom: int) -> tuple[float, float]:
     """Return the curvature of the cost, and the variance of the estimates. Both are relative to the linear loss.
 
-    The variance is the variance of an M-estimator, E[psi^2] / E[psi']^2 (Huber and Ronchetti 2009, chapter 7), and the
+    The variance is the variance of an M-estimator, E[psi^2] / E[psi']^2 (Huber and Ronchetti 2009, chapter 7). The
     curvature is E[psi']. In these formulas, psi is the derivative of half of the loss with respect to the residual.
     The variance is at least the variance for normal residuals, because a few residuals underestimate it.
     """
