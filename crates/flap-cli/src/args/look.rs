@@ -81,7 +81,7 @@ pub(crate) struct LookArgs {
     pub(crate) results: PathBuf,
 
     /// Better direction of the measure: larger or smaller values [default: min for power, current, strain, field,
-    /// drag, force_1, force_2 and hover_growth_1_s, max for other columns]
+    /// drag, force_1, force_2 and hover_growth_1_s, otherwise max]
     #[arg(long, value_enum)]
     pub(crate) aim: Option<Aim>,
 

@@ -67,7 +67,7 @@ pub(crate) struct PlotArgs {
     pub(crate) best_over: Vec<String>,
 
     /// Better direction of the column x in a Pareto picture [default: min for power, current, strain, field,
-    /// drag, force_1, force_2 and hover_growth_1_s, max for other columns]
+    /// drag, force_1, force_2 and hover_growth_1_s, otherwise max]
     #[arg(long, value_enum)]
     pub(crate) x_aim: Option<Aim>,
 
