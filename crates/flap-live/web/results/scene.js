@@ -110,8 +110,8 @@ const evenly = (/** @type {Group[]} */ list, /** @type {number} */ most) => {
  */
 
 /**
- * Rows in groups, one line each, in rising order of values; rows without a value come last. A parameter that is not an axis, not the lines' column and
- * not fixed by a slice gives one line per value.
+ * Rows in groups, one line each, in rising order of values; rows without a value come last. A parameter that is not an
+ * axis, not the lines' column and not fixed by a slice gives one line per value.
  *
  * @param {ResultsView} view
  * @param {Int32Array} rows

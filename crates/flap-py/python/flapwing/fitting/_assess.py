@@ -79,8 +79,9 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     with np.errstate(invalid="ignore", divide="ignore"):
         factors = np.sqrt(np.diag(discrepancy.covariance) / np.diag(inverse))
     factors = np.where(np.isfinite(factors), np.maximum(factors, 1.0), 1.0)
-    everything = target.residuals(model.space, found.x, answer)
-    curvature, variance = _search.robust_factors(everything, target.loss, good.freedom)
+    readings = target.residuals(model.space, found.x, answer)[: int(target.used.sum())]
+    parameters = _search.followed(model.space, target, found.x, answer)
+    curvature, variance = _search.robust_factors(readings, target.loss, len(readings) - parameters)
     if discrepancy.listed:
         # The discrepancy contains the excess of the residuals.
         variance = _search.NORMAL_VARIANCE[target.loss]

@@ -236,7 +236,7 @@ def weights(residuals: Array, loss: str) -> Array:
     return np.asarray(LOSSES[loss][1](residuals**2))
 
 
-def robust_factors(residuals: Array, loss: str, freedom: int) -> tuple[float, float]:
+def robust_factors(residuals: Array, loss: str, freedom: float) -> tuple[float, float]:
     """Return the curvature of the cost, and the variance of the estimates. Both are relative to the linear loss.
 
     The variance is the variance of an M-estimator, E[psi^2] / E[psi']^2 (Huber and Ronchetti 2009, chapter 7). The
@@ -248,7 +248,7 @@ def robust_factors(residuals: Array, loss: str, freedom: int) -> tuple[float, fl
     squares = residuals**2
     first, second = (function(squares) for function in LOSSES[loss][1:])
     curvature = max(float(np.mean(first + 2 * squares * second)), _CURVATURE * float(np.mean(first)))
-    variance = float(np.sum(squares * first**2)) / max(1, freedom) / curvature**2
+    variance = float(np.sum(squares * first**2)) / max(1.0, freedom) / curvature**2
     return curvature, max(variance, NORMAL_VARIANCE[loss])
 
 

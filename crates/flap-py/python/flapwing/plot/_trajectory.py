@@ -119,8 +119,6 @@ def trajectory(
             run.numbers(name)
     # One unit of each signal for all designs.
     data = joined(runs)
-    # A time without a unit is in seconds.
-    seconds = quantity("time", f"1 {data.unit(time) or 's'}", "s") if portraits else 1.0
     groups: dict[str, list[str]] = {}
     for name in names:
         groups.setdefault(data.shown(name).unit if designs is None else name, []).append(name)
@@ -132,6 +130,8 @@ def trajectory(
                 else "`ax` is for one signal of several trajectories; omit it for several signals or portraits"
             )
         portraits = []
+    # A time without a unit is in seconds.
+    seconds = quantity("time", f"1 {data.unit(time) or 's'}", "s") if portraits else 1.0
 
     with _style.applied(ax):
         if ax is not None:

@@ -229,7 +229,7 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
         overlap = min(shift, n - shift)
         error[shift] = np.abs(states[n - overlap :] - states[n - overlap - shift : n - shift]).max()
     # Neighbouring samples are also close, so the error must first rise.
-    close = np.flatnonzero(np.logical_or.accumulate(error > 0.25) & (error < 0.01))
+    close = np.flatnonzero(np.logical_or.accumulate(error > 0.05) & (error < 0.01))
     if close.size == 0:
         raise ValueError("the motion does not repeat within the trajectory: give its `frequency`")
     shift = int(close[0])
