@@ -103,13 +103,13 @@ pub enum NoSlope {
     Sliding,
     /// A parameter is at the end of its range, or the changed point is impossible.
     Edge,
-    /// The quantity is zero, so a relative change is undefined.
+    /// The quantity is zero, so a relative change is undefined, or the change has no effect.
     Zero,
     /// The period cannot be integrated with tighter tolerances within the limit on steps.
     Lost,
     /// The measure has a kink: the derivatives on both sides differ, or their difference cannot be determined.
     Kink,
-    /// The measure itself is missing.
+    /// The measure itself is missing, or its derivative is not computed.
     Missing,
 }
 

@@ -708,13 +708,14 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let Search { model, solver, start, .. } = self;
         let orbit = MeasuredOrbit { y, sums, middle, switches: end.outcome.switches, rtol: self.rtol() };
         let (row, error) = orbit_row::row_of(*model, solver, start, &orbit);
-        let at_rest = row.status != Status::Periodic || orbit_row::is_at_rest(*model, start, &orbit);
+        let is_periodic = row.status == Status::Periodic;
+        let at_rest = is_periodic && orbit_row::is_at_rest(*model, start, &orbit);
         let multiplier = monodromy.as_ref().map(spectral_radius);
         let multiplier = multiplier.map(|largest| largest.powi(self.maps_per_period()));
         // In still air, the drag of a wing at rest has no linear part, so rounding decides whether the multiplier is
         // below 1. In wind, the rest can be unstable.
-        let floquet_max =
-            multiplier.filter(|largest| !at_rest || *largest > 1.0 + NEUTRAL).unwrap_or(f64::NAN);
+        let is_known = |largest: &f64| is_periodic && (!at_rest || *largest > 1.0 + NEUTRAL);
+        let floquet_max = multiplier.filter(is_known).unwrap_or(f64::NAN);
         (Row { residual: *residual, floquet_max, state: y.to_vec(), ..row }, error)
     }
 

@@ -119,7 +119,7 @@ impl Wings {
         // The motion of the vehicle repeats after the least common multiple of the periods of its wings.
         let is_common =
             |period: &u32| rows.iter().all(|row| row.period > 0 && period.is_multiple_of(row.period));
-        let period = (1..=longest.pow(2)).map(|count| count * longest).find(is_common);
+        let period = (1..=longest.pow(3)).map(|count| count * longest).find(is_common);
         let all = |is_known: bool, value: fn(&Row) -> f64| if is_known { largest(value) } else { f64::NAN };
         let measures: Vec<&[f64]> = rows.iter().map(|row| row.measures.as_slice()).collect();
         let designs = || self.designs.iter().filter_map(|design| design.row.as_ref());

@@ -84,8 +84,9 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     names.are_measured = true;
     let own = formula::read_measures(table::find(&root, "measure"), &mut names, &mut problems);
     let section = table::find(&root, "gradient");
-    let (at_resonance, of_body) = (resonance.is_some(), body.as_ref());
-    let gradient = gradient::read(section, simulator, &names, &derived, at_resonance, of_body, &mut problems);
+    let at_resonance = resonance.is_some();
+    let gradient =
+        gradient::read(section, simulator, &names, &derived, at_resonance, body.as_ref(), &mut problems);
     let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
     let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
     let refine = table::find(&root, "refine").and_then(|section| {
@@ -189,8 +190,8 @@ fn read_points<'n>(
     let varied: Vec<usize> = moved.collect();
     let derived: Vec<usize> = drafts.iter().map(|(parameter, _)| *parameter).collect();
     let moved = [varied.as_slice(), &derived].concat();
-    // Standard errors belong to the values of the device, not to the values of axes and formulas.
-    for parameter in &moved {
+    // Standard errors belong to the values of the device, not to the values of formulas.
+    for parameter in &derived {
         base.uncertainty.set(*parameter, None);
     }
     let chosen: Vec<usize> =

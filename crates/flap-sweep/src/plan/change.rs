@@ -161,9 +161,10 @@ impl Plan {
                 Value::Given(_) | Value::Follows(_) | Value::Resonance | Value::OfDesign => None,
             };
             // An unset parameter of one wing has the value of all wings.
-            let follows = follows(parameter)
-                .and_then(|own| of_all_wings(self.parameters(), parameter).map_or(Some(own), follows));
-            let is_input = self.body().is_some_and(|body| body.has_input(parameter));
+            let own = follows(parameter);
+            let shared = of_all_wings(self.parameters(), parameter).filter(|_| own.is_some());
+            let is_input = self.body().is_some_and(|body| body.has_input(shared.unwrap_or(parameter)));
+            let follows = shared.map_or(own, follows);
             gradient::check(known, is_derived, is_input, follows)
                 .map_err(|reason| ChangeError::NoShares(known.name.to_owned(), reason))?;
         }

@@ -65,7 +65,9 @@ impl Values {
             let plan = point::plan(what)?;
             let robot = plan.robot().clone();
             let lines = [format!("{what}: based on {}", plan.preset()), of_model(&*robot)];
-            let errors = plan.uncertainty().errors().to_vec();
+            // The standard errors of the device do not belong to the values of axes.
+            let is_fixed = |(index, _): &(usize, f64)| plan.axes().varied().all(|varied| varied != *index);
+            let errors = plan.uncertainty().errors().iter().copied().filter(is_fixed).collect();
             return Ok(Values { robot, lines, numbers: Some(plan.point(0).values), errors });
         }
         let (model, preset) = of_name(what)?;

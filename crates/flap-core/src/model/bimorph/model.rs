@@ -453,6 +453,8 @@ impl Motions<4> for Bimorph {
     /// ```text
     /// (1 − e) ω⁴ − (ω_s² + ω_h²) ω² + ω_s² ω_h² = 0     e = a₁₂ (I_xz + a₁₂) T²/((m_e + a₁₁ T²)(I_xx + a₂₂))
     /// ```
+    ///
+    /// Without real solutions, the frequencies are NaN.
     fn modes(c: &Constants<f64>) -> Vec<Mode> {
         let stiffness = secant_stiffness(c, 0.0) + c.k_t;
         let squared_ratio = c.ratio * c.ratio;
