@@ -370,7 +370,7 @@ def _check_lengths(columns: Mapping[str, np.ndarray]) -> None:
 def _column(values: Any) -> np.ndarray:
     """Return a column as an array of numbers, flags or words. Masked cells become NaN."""
     if isinstance(values, np.ma.MaskedArray) and values.mask.any():
-        values = values.astype(object).filled(np.nan)
+        values = np.ma.filled(values.astype(object), np.nan)
     column = np.asarray(values)
     if column.dtype.kind not in "OT":
         return column

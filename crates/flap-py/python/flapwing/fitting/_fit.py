@@ -300,7 +300,7 @@ def _check_count(model: Model, held: Mask) -> None:
     """
     readings, fitted = int((~held).sum()), [None, *model.asked.of_set[~held]]
     priors = model.space.prior(np.zeros(len(model.space)))[1]
-    has_prior = priors.any(axis=0)
+    has_prior = np.count_nonzero(priors, axis=0)
     free = [one.label for one, known in zip(model.space.coordinates, has_prior) if one.of_set in fitted or known]
     if readings + len(priors) <= len(free):
         counted = f"{readings} reading{'s' * (readings != 1)}" + (f" and {len(priors)} priors" if len(priors) else "")
