@@ -85,7 +85,13 @@ def test_rows_at_hover_have_the_numbers_of_the_linear_model():
     # The vehicle at hover begins its linear model and its flight at hover.
     assert abs(hovering.linear().residual[2]) < 1e-5 * 69e-6 * 9.81 < abs(given.linear().residual[2])
     with pytest.raises(ValueError, match="remove trim and damping from the vehicle"):
-        flapwing.evaluate(hovering, {"drive_frequency": [120.0]}, gradient=["hinge_stiffness"])
+        flapwing.evaluate(hovering, {"drive_frequency": [120.0]}, return_states=True)
+    # Derivatives contain the change of the inputs.
+    stiffness = 1.5e-6 * np.array([0.995, 1.0, 1.005])
+    table = flapwing.evaluate(hovering, {"hinge_stiffness": stiffness}, gradient=["hinge_stiffness"], rtol=1e-9)
+    for measure in ("hover_amplitude_v", "power_mean_mw"):
+        slope = (table[measure][2] - table[measure][0]) / (stiffness[2] - stiffness[0])
+        assert table[f"d_{measure}_per_si_hinge_stiffness"][1] == pytest.approx(slope, rel=2e-4)
     best = flapwing.sweep({**hovering, "axes": {"about_z": ["-1 mm", "-3 mm", "-5 mm"]}})
     assert np.argmin(best["hover_growth_1_s"]) == 1
 
