@@ -587,7 +587,7 @@ def test_impossible_values_are_marked_and_the_page_stays(page):
         assert "last possible design" in page.text(f"#{part} .old-note")
     assert page.property("body", "innerText").count(message) == 1
     assert page.rows() == rows and page.number("lift_mean_mn") == lift
-    # The numbers of the earlier design are not those of the present one.
+    # The page does not show numbers of the earlier design beside the present design.
     page.wait(lambda: page.chart("chart.scene.marker") is None)
     assert set(page.texts("#pin-table tbody tr:not(:first-child) td:last-child")) == {"–"}
     # The picture keeps the names of its own axes.

@@ -88,7 +88,7 @@ fn unequal_plates_rest_before_an_impulse() {
     }
 }
 
-/// Natural frequencies are those of the equations of motion, linearised at rest by differences.
+/// The equations of motion, linearised at rest by differences, have the natural frequencies of the modes.
 #[test]
 fn modes_are_those_of_the_equations() {
     fn frequencies<M: Motions<4>>(
