@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use flap_core::parameter::{Kind, Parameter, Range};
 use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
-use flap_sweep::table::labels::{self, Direction, Scale};
+use flap_sweep::table::labels::{self, Scale};
 use flap_sweep::table::layout::{self, Layout};
 use serde::Serialize;
 use serde_json::{Map, Value};
@@ -56,7 +56,6 @@ struct ParameterText<'a> {
     log: bool,
     whole: bool,
     fitted: bool,
-    sd: Option<f64>,
 }
 
 /// A column with numbers.
@@ -66,8 +65,6 @@ struct MeasureText {
     label: String,
     unit: String,
     doc: String,
-    /// 1 if larger values are better, -1 if smaller values are better, and 0 if the measure has no better direction.
-    better: i8,
 }
 
 /// The first view: a measure over a parameter, with a line for each value of another parameter.
@@ -76,7 +73,6 @@ struct View<'a> {
     x: Axis<'a>,
     by: Option<Lines<'a>>,
     measure: String,
-    log: bool,
 }
 
 #[derive(Serialize)]
@@ -84,7 +80,6 @@ struct Axis<'a> {
     name: &'a str,
     from: f64,
     to: f64,
-    n: usize,
 }
 
 #[derive(Serialize)]
@@ -97,8 +92,6 @@ struct Lines<'a> {
 #[derive(Serialize)]
 struct Can {
     motion: bool,
-    modes: bool,
-    gradient: bool,
 }
 
 impl<'a> Description<'a> {
@@ -114,7 +107,6 @@ impl<'a> Description<'a> {
                 } else {
                     kind(parameter)
                 },
-                sd: plan.uncertainty().error(index),
                 ..ParameterText::new(parameter, *value, published)
             },
         );
@@ -128,11 +120,7 @@ impl<'a> Description<'a> {
             parameters: parameters.collect(),
             view: view(plan, opened.values(), &measures),
             measures,
-            can: Can {
-                motion: simulator.motions().is_ok(),
-                modes: simulator.experiments().is_ok(),
-                gradient: simulator.gradients().is_ok(),
-            },
+            can: Can { motion: simulator.motions().is_ok() },
         }
     }
 }
@@ -166,7 +154,6 @@ impl<'a> ParameterText<'a> {
             log: slider.log,
             whole: matches!(parameter.kind, Kind::Number(Range::Whole(..))),
             fitted: parameter.is_fitted,
-            sd: None,
         }
     }
 }
@@ -255,17 +242,7 @@ fn measures(plan: &Plan) -> Vec<MeasureText> {
     columns
         .map(|column| {
             let label = labels::with_unit(&column.name, &column.unit);
-            MeasureText {
-                better: match label.better {
-                    Some(Direction::Larger) => 1,
-                    Some(Direction::Smaller) => -1,
-                    None => 0,
-                },
-                label: label.words,
-                unit: label.unit,
-                doc: column.doc,
-                name: column.name,
-            }
+            MeasureText { label: label.words, unit: label.unit, doc: column.doc, name: column.name }
         })
         .collect()
 }
@@ -296,10 +273,9 @@ fn view<'a>(plan: &'a Plan, values: &[f64], measures: &[MeasureText]) -> View<'a
     let measure = usual.into_iter().find(|name| measures.iter().any(|measure| measure.name == *name));
     let first = || measures.first().map_or_else(String::new, |measure| measure.name.clone());
     View {
-        x: Axis { name: parameters[x].name, from, to, n: 81 },
+        x: Axis { name: parameters[x].name, from, to },
         by: by.map(|(index, values)| Lines { name: parameters[index].name, values }),
         measure: measure.map_or_else(first, str::to_owned),
-        log: false,
     }
 }
 

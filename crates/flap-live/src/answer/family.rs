@@ -1,25 +1,13 @@
 //! Families of lines. The rows of a family equal the rows of a sweep of the same grid.
 
-use std::time::Instant;
-
 use flap_sweep::run::{self, RowWriter, Summary};
-use serde::Serialize;
 
 use super::context::{AnswerContext, failed};
 use crate::request::{FamilyRequest, Refused};
 use crate::rows::Rows;
 
-/// The rows of a family, and the time for computing the rows.
-#[derive(Serialize)]
-pub(crate) struct Family {
-    #[serde(flatten)]
-    rows: Rows,
-    milliseconds: f64,
-}
-
 /// Computes the rows of a family.
-pub(crate) fn family(context: &AnswerContext<'_>, request: &FamilyRequest) -> Result<Family, Refused> {
-    let begun = Instant::now();
+pub(crate) fn family(context: &AnswerContext<'_>, request: &FamilyRequest) -> Result<Rows, Refused> {
     let FamilyRequest { design, x, by } = request;
     let plan = context.opened.plan_of(&context.opened.grid(design, Some(x), by.as_ref())?)?;
     let mut rows = Rows::of(&plan);
@@ -32,5 +20,5 @@ pub(crate) fn family(context: &AnswerContext<'_>, request: &FamilyRequest) -> Re
             output.write(row).map_err(|error| failed(&error))?;
         }
     }
-    Ok(Family { rows, milliseconds: begun.elapsed().as_secs_f64() * 1e3 })
+    Ok(rows)
 }

@@ -11,11 +11,10 @@ use super::context::{AnswerContext, unfinished};
 use crate::description;
 use crate::request::{MOST_ROWS, MotionRequest, Refused};
 
-/// A motion: samples in rows, and the meaning of each column.
+/// A motion: samples in rows.
 #[derive(Serialize)]
 pub(crate) struct Motion {
     columns: Vec<String>,
-    meanings: Vec<String>,
     /// A number that is not finite is null in JSON.
     rows: Vec<Vec<f64>>,
     /// The value of each parameter.
@@ -36,5 +35,5 @@ pub(crate) fn motion(context: &AnswerContext<'_>, request: &MotionRequest) -> Re
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: *samples, settled: begin.is_none() };
     let motion = motions.trajectory_from(&run, begin.as_deref(), &request).map_err(unfinished)?;
     let values = description::values(plan.parameters(), &values);
-    Ok(Motion { columns: motion.columns, meanings: motions.meanings(), rows: motion.rows, values })
+    Ok(Motion { columns: motion.columns, rows: motion.rows, values })
 }
