@@ -193,12 +193,9 @@ fn edited(failure: Failure, changed: Option<&String>) -> Failure {
 /// If `continues` is true, `flap results resume` is one of the options.
 fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues: bool) -> Failure {
     let grid = if changed.is_some() { " with its original grid" } else { "" };
-    let failure = if continues {
-        failure.help(format!("`flap results resume {}` continues the run{grid}", out.display()))
-    } else {
-        failure
-    };
-    edited(failure, changed).help("use --restart to delete the rows of this file and start over")
+    let resume = || format!("`flap results resume {}` continues the run{grid}", out.display());
+    edited(failure.helps(continues.then(resume)), changed)
+        .help("use --restart to delete the rows of this file and start over")
 }
 
 /// Returns the help line if new results will replace earlier results; `None` if there are no earlier results.
@@ -289,13 +286,9 @@ impl From<OpenError> for Failure {
             }
             OpenError::Read { .. } => Failure::system(error.to_string()),
             OpenError::Damaged { ref path, ref damage } => {
+                let resume = || format!("`flap results resume {}` computes the rows again", path.display());
                 let failure = Failure::damaged(error.to_string());
-                let failure = if damage.lost > 0 {
-                    failure.help(format!("`flap results resume {}` computes the rows again", path.display()))
-                } else {
-                    failure
-                };
-                failure.help(IGNORE_HELP)
+                failure.helps((damage.lost > 0).then(resume)).help(IGNORE_HELP)
             }
         }
     }

@@ -124,13 +124,12 @@ fn describe(
 fn without_numbers(args: &DescribeArgs, table: &Table) -> Failure {
     let failure = Failure::usage(format!("{} has no column of numbers", args.look.results.display()));
     let other = [";", "\t", "|"].into_iter().find(|mark| table.columns[0].name.contains(mark));
-    match other {
-        Some(mark) => failure.help(format!(
-            "cells must be separated by commas; the first line contains `{}`, which may be the separator",
-            mark.escape_default()
-        )),
-        None => failure,
-    }
+    failure.helps(other.map(|mark| {
+        let mark = mark.escape_default();
+        format!(
+            "cells must be separated by commas; the first line contains `{mark}`, which may be the separator"
+        )
+    }))
 }
 
 /// Returns the number of rows of each status, and the rows to describe: all rows, or only the rows with a periodic

@@ -52,13 +52,8 @@ impl Chosen {
         if point.point >= plan.len() {
             let PointArgs { what, point: index, .. } = point;
             let message = format!("there is no point {index}: {what} has points 0 to {}", plan.len() - 1);
-            let failure = Failure::usage(message);
-            return Err(match plan.refine() {
-                Some(_) => {
-                    failure.help("a point of [refine] is in the rows only: set its parameters with --set")
-                }
-                None => failure,
-            });
+            let help = "a point of [refine] is in the rows only: set its parameters with --set";
+            return Err(Failure::usage(message).helps(plan.refine().map(|_| help)));
         }
         let mut values = plan.point(point.point).values;
         let (mut set, mut set_with_unit) = (Vec::new(), Vec::new());

@@ -139,12 +139,8 @@ fn difference(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Fa
         return Ok(number);
     }
     let failure = Failure::usage(format!("{option} {text}: must be more than zero"));
-    let is_step = option == "--step";
-    Err(if is_step {
-        failure.help("values rise from --from to --to, then fall by the same steps")
-    } else {
-        failure
-    })
+    let help = "values rise from --from to --to, then fall by the same steps";
+    Err(failure.helps((option == "--step").then_some(help)))
 }
 
 /// Sets a parameter of all designs.

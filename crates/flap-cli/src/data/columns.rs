@@ -1,6 +1,5 @@
 //! The columns of a file, as numbers and words.
 
-use flap_sweep::notation::nearest;
 use flap_sweep::notation::text;
 
 use crate::console;
@@ -75,15 +74,10 @@ impl Table {
 
 /// Returns the position of a column by its name.
 pub(crate) fn find<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Result<usize, Failure> {
-    names.clone().position(|known| known == name).ok_or_else(|| unknown(names, name))
-}
-
-fn unknown<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Failure {
-    let failure = Failure::usage(format!("there is no column `{name}`"));
-    match nearest(name, names.clone()) {
-        Some(nearest) => failure.help(format!("did you mean `{nearest}`?")),
-        None => failure.help(listed(names)),
-    }
+    names.clone().position(|known| known == name).ok_or_else(|| {
+        let failure = Failure::usage(format!("there is no column `{name}`"));
+        failure.nearest(name, names.clone(), &listed(names))
+    })
 }
 
 /// Returns the names of the columns, as lines of help.

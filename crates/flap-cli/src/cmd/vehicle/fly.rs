@@ -50,10 +50,7 @@ fn disturbance(given: &[(String, String)]) -> Result<[f64; FED_BACK], Failure> {
         };
         disturbance[state] = units::parse_as(value, states[state].1).map_err(|error| {
             let failure = Failure::usage(error.message(&format!("--disturb {name}={value}")));
-            match error.help() {
-                Some(help) => failure.help(help),
-                None => failure,
-            }
+            failure.helps(error.help())
         })?;
     }
     Ok(disturbance)
