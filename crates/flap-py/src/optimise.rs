@@ -5,6 +5,7 @@ use std::num::NonZeroUsize;
 
 use flap_sweep::grid;
 use flap_sweep::notation::text;
+use flap_sweep::run::Progress;
 use flap_sweep::study::optimum::{self, Aim, Optimum, Problem, ProblemError, Settings, Which};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -44,10 +45,8 @@ pub(crate) fn optimise<'py>(
         .map_err(|error| refused(&error, goal, is_largest, &conditions))?;
     let (found, watch) = py.detach(|| {
         let watch = RefCell::new(Watch::new(progress));
-        let found = optimum::optimise(&problem, &settings, &|done, all| {
-            let mut watch = watch.borrow_mut();
-            watch.look(done, all);
-            watch.is_ended()
+        let found = optimum::optimise(&problem, &settings, &|finished, points| {
+            watch.borrow_mut().stops(Progress { finished, points })
         });
         (found, watch.into_inner())
     });

@@ -23,23 +23,18 @@ impl Watch {
         Watch { progress, last: None, error: None }
     }
 
-    /// Does the same checks as [`Watch::look`]. Returns true if the work must end.
-    pub(crate) fn stops(&mut self, progress: Progress) -> bool {
-        self.look(progress.finished, progress.points);
-        self.error.is_some()
+    /// If [`INTERVAL`] has passed, checks for signals and reports progress. Returns true if an exception of a signal handler or of
+    /// the callback ended the work.
+    pub(crate) fn stops(&mut self, Progress { finished, points }: Progress) -> bool {
+        if self.error.is_none() && self.last.is_none_or(|last| last.elapsed() >= INTERVAL) {
+            self.look_now(finished, points);
+        }
+        self.is_stopped()
     }
 
     /// Returns true if an exception has ended the work.
     pub(crate) fn is_stopped(&self) -> bool {
         self.error.is_some()
-    }
-
-    /// If [`INTERVAL`] has passed, checks for signals and reports progress. An exception of a signal handler or of the callback
-    /// ends the work.
-    pub(crate) fn look(&mut self, done: u64, all: u64) {
-        if self.error.is_none() && self.last.is_none_or(|last| last.elapsed() >= INTERVAL) {
-            self.look_now(done, all);
-        }
     }
 
     fn look_now(&mut self, done: u64, all: u64) {
@@ -66,11 +61,6 @@ impl Watch {
         }
     }
 
-    /// Returns true if an exception ended the work.
-    pub(crate) fn is_ended(&self) -> bool {
-        self.error.is_some()
-    }
-
     /// Returns the exception that ended the work as `Err`, if an exception ended the work.
     pub(crate) fn ended(self) -> PyResult<()> {
         self.error.map_or(Ok(()), Err)
@@ -85,11 +75,7 @@ pub(crate) fn interruptible<T: Send>(
 ) -> PyResult<T> {
     let (done, watch) = py.detach(|| {
         let watch = RefCell::new(Watch::new(None));
-        let done = work(&|| {
-            let mut watch = watch.borrow_mut();
-            watch.look(0, 0);
-            watch.error.is_some()
-        });
+        let done = work(&|| watch.borrow_mut().stops(Progress { finished: 0, points: 0 }));
         (done, watch.into_inner())
     });
     watch.ended()?;
