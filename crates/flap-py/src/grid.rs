@@ -202,7 +202,7 @@ pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
         return parse(py, &source.name, &source.text);
     }
     if let Some(dict) = grid_text::dictionary(source)? {
-        return parse(py, "<grid>", &grid_text::write(&dict)?);
+        return parse(py, "<grid>", &grid_text::text_of(&dict)?);
     }
     if let Some(name) = name(source)?
         && !Path::new(&name).exists()

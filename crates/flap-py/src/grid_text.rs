@@ -20,13 +20,8 @@ const WANTED: &str = "a number, text, True or False, a list, an array, or a dict
 #[pyfunction]
 #[pyo3(signature = (entries, /))]
 pub(crate) fn text_of(entries: &Bound<'_, PyDict>) -> PyResult<String> {
-    write(entries)
-}
-
-/// Returns the text of a grid file with the entries of `grid`. `TypeError` for a key or a value that a grid file cannot have.
-pub(crate) fn write(grid: &Bound<'_, PyDict>) -> PyResult<String> {
     let (mut head, mut tables) = (Vec::new(), Vec::new());
-    for (key, value) in grid {
+    for (key, value) in entries {
         let name = name(&key)?;
         if let Some(table) = dictionary(&value)? {
             // [zip] is a table of columns that vary together.

@@ -13,8 +13,14 @@ use pyo3::types::PyString;
 use crate::convert;
 use crate::solver;
 
-/// Returns the names of all presets, in the order of the models.
-pub(crate) fn preset_names() -> Vec<&'static str> {
+/// Return the names of the published parameter sets.
+///
+/// Returns
+/// -------
+/// list of str
+///     Names for `run`, such as ``"ozaki2018-large"``.
+#[pyfunction]
+pub(crate) fn presets() -> Vec<&'static str> {
     simulate::all().iter().flat_map(|model| model.presets()).map(|preset| preset.name).collect()
 }
 
@@ -25,7 +31,7 @@ pub(crate) fn find_preset(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Sim
     };
     let name = name.to_cow()?;
     simulate::preset(&name).ok_or_else(|| {
-        let names = preset_names();
+        let names = presets();
         let hint = did_you_mean(&name, &names);
         PyValueError::new_err(format!("there is no preset `{name}`{hint} (presets: {})", names.join(", ")))
     })
@@ -89,7 +95,7 @@ fn listed(options: &[&str]) -> String {
 
 fn unknown_parameter(simulator: &dyn Simulator, name: &str) -> PyErr {
     let parameters: Vec<&str> = simulator.parameters().iter().map(|parameter| parameter.name).collect();
-    let settings = solver::names();
+    let settings = solver::settings();
     // Misspelt solver settings are also reported here.
     let hint = did_you_mean(name, &[&parameters[..], &settings[..]].concat());
     PyValueError::new_err(format!(

@@ -11,21 +11,10 @@ use crate::evaluate::refused;
 use crate::point::Chosen;
 use crate::records::Wave;
 use crate::watch::interruptible;
-use crate::{begin, convert, error, motion, parameters};
+use crate::{begin, convert, error, motion};
 
 /// Largest number of samples in a trajectory, which is held in memory.
 const SAMPLES_MAX: u64 = 5_000_000;
-
-/// Return the names of the published parameter sets.
-///
-/// Returns
-/// -------
-/// list of str
-///     Names for `run`, such as ``"ozaki2018-large"``.
-#[pyfunction]
-pub(crate) fn presets() -> Vec<&'static str> {
-    parameters::preset_names()
-}
 
 /// Run one point; see `flapwing.run`.
 #[pyfunction]

@@ -8,15 +8,10 @@ use pyo3::types::PyDict;
 
 use crate::convert;
 
-/// Returns the names of the settings, in the order of the signature of `flapwing.run`.
-pub(crate) fn names() -> Vec<&'static str> {
-    SolverSettings::TABLE.iter().map(|setting| setting.name).collect()
-}
-
 /// Return the names of the solver settings, in the order of the signature of `flapwing.run`.
 #[pyfunction]
 pub(crate) fn settings() -> Vec<&'static str> {
-    names()
+    SolverSettings::TABLE.iter().map(|setting| setting.name).collect()
 }
 
 /// The solver settings that a call gives.
