@@ -135,11 +135,7 @@ impl<'a> ParameterText<'a> {
             group: parameter.group,
             symbol: parameter.symbol,
             doc: parameter.doc,
-            allowed: match parameter.kind {
-                Kind::Number(range) => range.describe(),
-                Kind::Following(range, follows) => format!("{}; if not set, {follows}", range.describe()),
-                Kind::Choice(options) => options.join(" | "),
-            },
+            allowed: parameter.kind.describe(),
             unit,
             factor,
             kind: kind(parameter),

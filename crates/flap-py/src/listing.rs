@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use flap_core::parameter::Kind;
+use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate;
 use flap_sweep::notation::text;
 use flap_sweep::plan::Robot;
@@ -57,19 +57,15 @@ pub(crate) enum Value {
 pub(crate) fn params(design: &Bound<'_, PyAny>) -> PyResult<Vec<Listed>> {
     let (model, values) = find(design)?;
     let listed = model.parameters().iter().zip(values).map(|(parameter, value)| {
-        let (allowed, options) = match parameter.kind {
-            Kind::Number(range) => (range.describe(), Vec::new()),
-            Kind::Following(range, follows) => {
-                (format!("{}; if not set, {follows}", range.describe()), Vec::new())
-            }
-            Kind::Choice(options) => {
-                (options.join(" | "), options.iter().copied().map(str::to_owned).collect())
-            }
+        let options = match parameter.kind {
+            Kind::Choice(options) => options.iter().copied().map(str::to_owned).collect(),
+            Kind::Number(_) | Kind::Following(..) => Vec::new(),
         };
         let option = text::option(parameter, value);
         let value = option.map_or(Value::Number(value), |option| Value::Option(option.to_owned()));
         let (name, doc) = (parameter.name.to_owned(), parameter.doc.to_owned());
-        Listed { name, value, unit: parameter.unit, symbol: parameter.symbol, doc, allowed, options }
+        let Parameter { unit, symbol, .. } = *parameter;
+        Listed { name, value, unit, symbol, doc, allowed: parameter.kind.describe(), options }
     });
     let listed = listed.collect();
     Ok(listed)

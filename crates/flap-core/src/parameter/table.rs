@@ -66,6 +66,17 @@ pub enum Kind<'a> {
     Choice(&'a [&'a str]),
 }
 
+impl Kind<'_> {
+    /// Returns the allowed values as text: the words of [`Range::describe`], or the names of the options.
+    pub fn describe(&self) -> String {
+        match self {
+            Kind::Number(range) => range.describe(),
+            Kind::Following(range, follows) => format!("{}; if not set, {follows}", range.describe()),
+            Kind::Choice(options) => options.join(" | "),
+        }
+    }
+}
+
 /// A published parameter set.
 #[derive(Debug)]
 pub struct Preset {

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use flap_core::parameter::{Kind, Parameter};
+use flap_core::parameter::Parameter;
 
 use crate::notation::{UserError, text, units};
 use crate::plan::uncertainty::Correlation;
@@ -104,11 +104,7 @@ fn comment(parameter: &Parameter) -> String {
     if !parameter.symbol.is_empty() {
         facts.push(parameter.symbol.to_owned());
     }
-    facts.push(match parameter.kind {
-        Kind::Number(range) => range.describe(),
-        Kind::Following(range, follows) => format!("{}; if not set, {follows}", range.describe()),
-        Kind::Choice(options) => options.join(" | "),
-    });
+    facts.push(parameter.kind.describe());
     if parameter.is_fitted {
         facts.push("the preset's value was fitted to one vehicle".to_owned());
     }

@@ -156,7 +156,7 @@ fn parameters(of: &Values) -> Vec<Entry> {
             },
             unit: parameter.unit,
             symbol: parameter.symbol,
-            allowed: allowed(parameter),
+            allowed: parameter.kind.describe(),
             meaning: parameter.doc.to_owned(),
             more: more(parameter),
             is_fit: parameter.is_fitted && given.is_some_and(|value| of.is_published(place, value)),
@@ -179,20 +179,11 @@ fn more(parameter: &Parameter) -> String {
     if !parameter.symbol.is_empty() {
         let _ = write!(text, ". Symbol: {}", parameter.symbol);
     }
-    let _ = write!(text, ". Allowed: {}", allowed(parameter));
+    let _ = write!(text, ". Allowed: {}", parameter.kind.describe());
     if parameter.is_fitted {
         text += ". The published value was fitted to one vehicle";
     }
     text
-}
-
-/// Returns the allowed values as text.
-pub(super) fn allowed(parameter: &Parameter) -> String {
-    match parameter.kind {
-        Kind::Number(range) => range.describe(),
-        Kind::Following(range, follows) => format!("{}; if not set, {follows}", range.describe()),
-        Kind::Choice(options) => options.join(" | "),
-    }
 }
 
 /// Returns the columns of rows: measures, columns of designs at their resonance, and columns of every model.

@@ -4,8 +4,7 @@ use std::fmt::Write as _;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Column, Simulator};
-
-use crate::cmd::models::parameters::{allowed, shown};
+use flap_sweep::notation::text;
 
 /// A name and its meaning.
 #[derive(Clone)]
@@ -103,7 +102,7 @@ pub(super) fn of_parameter(model: &dyn Simulator, index: usize, parameter: &Para
 /// Returns meaning, unit, symbol, range and group of a parameter.
 pub(super) fn of_table(parameter: &Parameter) -> String {
     let mut page = format!("  {}\n", parameter.doc);
-    let allowed = allowed(parameter);
+    let allowed = parameter.kind.describe();
     for (what, value) in [
         ("unit", parameter.unit),
         ("symbol", parameter.symbol),
