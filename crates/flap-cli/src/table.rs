@@ -5,9 +5,8 @@ use std::fmt::Write as _;
 use std::ops::Range;
 
 use anstyle::Style;
-use flap_core::parameter::{Kind, Parameter};
+use flap_core::parameter::Parameter;
 use flap_sweep::notation::text::{self, shortened};
-use flap_sweep::notation::units::prefixed;
 
 use crate::console;
 
@@ -18,11 +17,7 @@ pub(crate) fn six_digits(number: f64) -> String {
 
 /// Returns a parameter with its value and unit to six digits, such as `hinge_stiffness = 1.52 uN*m/rad`.
 pub(crate) fn assignment(parameter: &Parameter, value: f64) -> String {
-    let value = match parameter.kind {
-        Kind::Choice(_) => text::value(parameter, value),
-        _ => prefixed(value, parameter.unit),
-    };
-    format!("{} = {value}", parameter.name)
+    format!("{} = {}", parameter.name, text::shown(parameter, value))
 }
 
 /// Rows of cells, aligned on the left. A row may have fewer cells than other rows.

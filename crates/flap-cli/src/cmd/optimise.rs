@@ -267,11 +267,7 @@ fn page(problem: &Problem, best: &Optimum) -> String {
     let mut table = Table::with_headings(&["parameter", "value"]);
     for index in plan.differing() {
         let parameter = &plan.parameters()[index];
-        let value = match text::option(parameter, best.values[index]) {
-            Some(option) => option.to_owned(),
-            None => prefixed(best.values[index], parameter.unit),
-        };
-        table.row([parameter.name.to_owned(), value]);
+        table.row([parameter.name.to_owned(), text::shown(parameter, best.values[index])]);
     }
     page += &table.text_within(console::width());
     page.push('\n');

@@ -159,10 +159,7 @@ pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
         let Some(index) = Parameter::index(plan.parameters(), name) else { continue };
         let parameter = &plan.parameters()[index];
         let before = match plan.base()[index] {
-            Value::Given(before) => match text::option(parameter, before) {
-                Some(option) => option.to_owned(),
-                None => units::prefixed(before, parameter.unit),
-            },
+            Value::Given(before) => text::shown(parameter, before),
             Value::Follows(_) | Value::Resonance => "not set".to_owned(),
             Value::OfDesign => "a value of each design".to_owned(),
         };

@@ -7,6 +7,8 @@ use std::fmt::Write as _;
 use flap_core::parameter::{Kind, Parameter};
 use xxhash_rust::xxh3::xxh3_64;
 
+use super::units::prefixed;
+
 /// Returns the shortest decimal text that reads back as the same number.
 ///
 /// Numbers from 1e-4 up to 1e9 are written in full (`0.0012`, `100.0`), other numbers with an exponent (`1.52e-6`,
@@ -131,6 +133,24 @@ pub fn value(parameter: &Parameter, value: f64) -> String {
     match option(parameter, value) {
         Some(name) => name.to_owned(),
         None => float(value),
+    }
+}
+
+/// Returns the value of a parameter for people: six digits with prefix and unit, such as `1.52 uN*m/rad`, or the name of
+/// an option.
+pub fn shown(parameter: &Parameter, value: f64) -> String {
+    match option(parameter, value) {
+        Some(name) => name.to_owned(),
+        None => prefixed(value, parameter.unit),
+    }
+}
+
+/// Returns the value of a solver setting: a number, `true` or `false`.
+pub fn setting(kind: SettingKind, settings: &SolverSettings) -> String {
+    match kind {
+        SettingKind::Number { get, .. } => float(get(settings)),
+        SettingKind::Count { get, .. } => get(settings).to_string(),
+        SettingKind::Flag { get, .. } => get(settings).to_string(),
     }
 }
 

@@ -155,11 +155,7 @@ impl Deviation<'_> {
     }
 
     fn text(&self, value: f64) -> String {
-        match text::option(self.parameter, value) {
-            Some(option) => option.to_owned(),
-            None if value.is_nan() => "not set".to_owned(),
-            None => units::prefixed(value, self.parameter.unit),
-        }
+        if value.is_nan() { "not set".to_owned() } else { text::shown(self.parameter, value) }
     }
 }
 

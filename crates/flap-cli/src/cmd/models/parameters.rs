@@ -3,10 +3,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use flap_core::parameter::{Kind, Parameter, Preset};
+use flap_core::parameter::{Parameter, Preset};
 use flap_core::simulate::Simulator;
 use flap_sweep::notation::text;
-use flap_sweep::notation::units::prefixed;
 use flap_sweep::plan::Robot;
 use flap_sweep::resonance;
 use flap_sweep::table::layout::fixed_columns;
@@ -139,7 +138,7 @@ impl Entry {
 fn parameters(of: &Values) -> Vec<Entry> {
     let entry = |(place, parameter): (usize, &Parameter)| {
         let value = of.numbers.as_ref().map(|numbers| numbers[place]);
-        let error = of.error(place).map(|error| shown(parameter, error));
+        let error = of.error(place).map(|error| text::shown(parameter, error));
         let given = value.filter(|value| !value.is_nan());
         Entry {
             kind: "parameter",
@@ -148,8 +147,8 @@ fn parameters(of: &Values) -> Vec<Entry> {
             value: given.map_or_else(String::new, |value| text::value(parameter, value)),
             shown: match (value, given) {
                 (_, Some(value)) => match &error {
-                    Some(error) => format!("{} ± {error}", shown(parameter, value)),
-                    None => shown(parameter, value),
+                    Some(error) => format!("{} ± {error}", text::shown(parameter, value)),
+                    None => text::shown(parameter, value),
                 },
                 (Some(_), None) => "-".to_owned(),
                 (None, None) => parameter.unit.to_owned(),
@@ -163,14 +162,6 @@ fn parameters(of: &Values) -> Vec<Entry> {
         }
     };
     of.robot.parameters().iter().enumerate().map(entry).collect()
-}
-
-/// Returns a value with a prefix and its unit, or the name of an option.
-pub(super) fn shown(parameter: &Parameter, value: f64) -> String {
-    match parameter.kind {
-        Kind::Choice(_) => text::value(parameter, value),
-        _ => prefixed(value, parameter.unit),
-    }
 }
 
 /// Returns symbol and allowed values of a parameter.

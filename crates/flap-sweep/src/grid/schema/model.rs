@@ -99,11 +99,7 @@ fn description(model: &dyn Simulator, place: usize) -> String {
     }
     for preset in model.presets() {
         let value = (preset.values)()[place];
-        let value = match kind {
-            _ if value.is_nan() => "not set".to_owned(),
-            Kind::Choice(_) => text::value(parameter, value),
-            _ => prefixed(value, unit),
-        };
+        let value = if value.is_nan() { "not set".to_owned() } else { text::shown(parameter, value) };
         let _ = write!(lines, "\n\n{}: {value}", preset.name);
     }
     lines

@@ -93,7 +93,7 @@ pub(super) fn of_parameter(model: &dyn Simulator, index: usize, parameter: &Para
     }
     for preset in model.presets() {
         let value = (preset.values)()[index];
-        let value = if value.is_nan() { "not set".to_owned() } else { shown(parameter, value) };
+        let value = if value.is_nan() { "not set".to_owned() } else { text::shown(parameter, value) };
         let _ = writeln!(page, "  {value} in {}", preset.name);
     }
     page
