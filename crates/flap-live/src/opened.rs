@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{PointRun, Row, SettingKind, Simulator, SolverSettings};
+use flap_core::simulate::{PointRun, Row, Setting, Simulator, SolverSettings};
 use flap_sweep::grid;
 use flap_sweep::grid::diagnostic::{Diagnostic, Mistakes};
 use flap_sweep::notation::text;
@@ -248,28 +248,15 @@ fn head(plan: &Plan) -> String {
         head += kept.trim_start();
         head = head.trim_end().to_owned() + "\n";
     }
-    let settings = plan.solver();
-    let changed: String = SolverSettings::TABLE
-        .iter()
-        .filter_map(|setting| setting_line(setting.name, setting.kind, settings))
-        .collect();
+    let settings = SolverSettings::TABLE.iter().filter_map(|Setting { name, kind, .. }| {
+        let value = text::setting(*kind, plan.solver());
+        (value != text::setting(*kind, &SolverSettings::DEFAULT)).then(|| format!("{name} = {value}\n"))
+    });
+    let changed: String = settings.collect();
     if !changed.is_empty() {
         let _ = write!(head, "\n[solver]\n{changed}");
     }
     head
-}
-
-/// Returns the line of a solver setting that differs from its default.
-fn setting_line(name: &str, kind: SettingKind, settings: &SolverSettings) -> Option<String> {
-    let default = &SolverSettings::DEFAULT;
-    let value = match kind {
-        SettingKind::Number { get, .. } => {
-            (get(settings) != get(default)).then(|| text::float(get(settings)))
-        }
-        SettingKind::Count { get, .. } => (get(settings) != get(default)).then(|| get(settings).to_string()),
-        SettingKind::Flag { get, .. } => (get(settings) != get(default)).then(|| get(settings).to_string()),
-    };
-    value.map(|value| format!("{name} = {value}\n"))
 }
 
 /// Returns a name as a key of TOML. A name that is not a single word is in quotes.

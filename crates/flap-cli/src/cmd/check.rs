@@ -6,7 +6,7 @@ mod trial;
 use std::fmt::Write as _;
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::{Setting, SettingKind, SolverSettings};
+use flap_core::simulate::{Setting, SolverSettings};
 use flap_core::vehicle::Vehicle;
 use flap_sweep::notation::text;
 use flap_sweep::plan::axes::Values;
@@ -352,12 +352,5 @@ fn solver(solver: &SolverSettings) -> String {
 
 /// Returns names and values of the solver's settings.
 fn settings(solver: &SolverSettings) -> impl Iterator<Item = (&'static str, String)> {
-    SolverSettings::TABLE.iter().map(|Setting { name, kind, .. }| {
-        let value = match kind {
-            SettingKind::Number { get, .. } => text::float(get(solver)),
-            SettingKind::Count { get, .. } => get(solver).to_string(),
-            SettingKind::Flag { get, .. } => get(solver).to_string(),
-        };
-        (*name, value)
-    })
+    SolverSettings::TABLE.iter().map(|Setting { name, kind, .. }| (*name, text::setting(*kind, solver)))
 }

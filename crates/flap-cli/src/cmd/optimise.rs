@@ -8,7 +8,7 @@ use std::io::{self, Write as _};
 use std::path::Path;
 use std::time::Instant;
 
-use flap_core::simulate::{NoSlope, Setting, SettingKind, SolverSettings};
+use flap_core::simulate::{NoSlope, Setting, SolverSettings};
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::grid;
 use flap_sweep::notation::text::{self, count};
@@ -120,12 +120,10 @@ fn options(solver: &SolverSettings) -> (String, Vec<&'static str>) {
         let _ = write!(options, " --rtol {}", text::float(usual.rtol));
     }
     for Setting { name, kind, .. } in SolverSettings::TABLE {
-        let value = match kind {
-            SettingKind::Number { get, .. } if get(solver) != get(&usual) => text::float(get(solver)),
-            SettingKind::Count { get, .. } if get(solver) != get(&usual) => get(solver).to_string(),
-            SettingKind::Flag { get, .. } if get(solver) != get(&usual) => get(solver).to_string(),
-            _ => continue,
-        };
+        let value = text::setting(*kind, solver);
+        if value == text::setting(*kind, &usual) {
+            continue;
+        }
         if ["accuracy", "settle_tol", "max_cycles"].contains(name) {
             let _ = write!(options, " --{} {value}", name.replace('_', "-"));
         } else {

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use std::fmt::Write as _;
 
 use flap_core::parameter::{Kind, Parameter};
+use flap_core::simulate::{SettingKind, SolverSettings};
 use xxhash_rust::xxh3::xxh3_64;
 
 use super::units::prefixed;

@@ -1,6 +1,7 @@
 //! Names that are explained without parsing: parameters, columns, settings and statuses.
 
-use flap_core::simulate::{SettingKind, Simulator, SolverSettings, Status};
+use flap_core::simulate::{Simulator, SolverSettings, Status};
+use flap_sweep::notation::text;
 use flap_sweep::resonance::measures;
 use flap_sweep::table::layout::{fixed_columns, special_columns, split_unit};
 
@@ -50,12 +51,7 @@ pub(super) fn entries(models: &[&'static dyn Simulator]) -> Vec<Entry> {
 /// The settings of the solver.
 fn settings() -> impl Iterator<Item = Entry> {
     SolverSettings::TABLE.iter().map(|setting| {
-        let default = SolverSettings::DEFAULT;
-        let value = match setting.kind {
-            SettingKind::Number { get, .. } => format!("{:?}", get(&default)),
-            SettingKind::Count { get, .. } => get(&default).to_string(),
-            SettingKind::Flag { get, .. } => get(&default).to_string(),
-        };
+        let value = text::setting(setting.kind, &SolverSettings::DEFAULT);
         let follows = setting.follows.map(|follows| format!(" ({follows})")).unwrap_or_default();
         let text = format!("  {}\n  default   {value}{follows}\n", setting.doc);
         Entry::new(setting.name, "a setting of [solver] in a grid file", text)
