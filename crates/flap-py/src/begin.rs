@@ -1,7 +1,6 @@
 //! Initial states from Python: states at the start of a drive period.
 
 use flap_core::simulate::Simulator;
-use flap_sweep::notation::nearest;
 use flap_sweep::table::layout::split_unit;
 use numpy::PyReadonlyArray2;
 use numpy::ndarray::ArrayView1;
@@ -9,6 +8,7 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::parameters::did_you_mean;
 use crate::{convert, error};
 
 /// Returns the state with these components: numbers in the unit of the name, or text with a unit. Other components are zero.
@@ -69,8 +69,7 @@ fn component(states: &[String], name: &str) -> PyResult<(usize, f64)> {
         }
     }
     let known: Vec<&str> = states.iter().map(|state| split_unit(state).0).collect();
-    let hint = nearest(name, known.iter().copied())
-        .map_or_else(String::new, |nearest| format!(", did you mean `{nearest}`?"));
+    let hint = did_you_mean(name, &known);
     let message =
         format!("`initial_state` has no component `{name}`{hint}\nthe states are {}", states.join(", "));
     Err(PyValueError::new_err(message))

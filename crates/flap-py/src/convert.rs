@@ -47,10 +47,9 @@ pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// `TypeError` or `ValueError` as for [`number`]; `ValueError` for text that is not such a quantity.
 pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     match value.cast::<PyString>() {
-        Ok(text) if takes_text => units::parse_as(&text.to_cow()?, unit).map_err(|error| {
-            let help = error.help().map_or_else(String::new, |help| format!("\n{help}"));
-            PyValueError::new_err(format!("{}{help}", error.message(&format!("`{name}`"))))
-        }),
+        Ok(text) if takes_text => {
+            units::parse_as(&text.to_cow()?, unit).map_err(|error| error::quantity(name, &error))
+        }
         _ if takes_text => number(name, &format!("a number in {unit} or text with a unit"), value),
         _ => number(name, "a number, in the unit of its name", value),
     }

@@ -1,5 +1,6 @@
 //! Converts errors to Python exceptions.
 
+use std::fmt::Display;
 use std::io;
 
 use flap_core::simulate::Unfinished;
@@ -12,6 +13,7 @@ use flap_sweep::grid::ReadError;
 use flap_sweep::grid::diagnostic;
 use flap_sweep::input::InputError;
 use flap_sweep::notation::UserError;
+use flap_sweep::notation::units::UnitError;
 use flap_sweep::run::RunError;
 use pyo3::create_exception;
 use pyo3::exceptions::{
@@ -30,19 +32,19 @@ create_exception!(
 
 /// Returns a `GridError` for mistakes in a grid, with its list of diagnostics.
 pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
-    let error = GridError::new_err(diagnostic::render(mistakes, false));
-    let listed: Vec<Diagnostic> = mistakes.iter().map(Diagnostic::from).collect();
-    match error.value(py).setattr("diagnostics", listed) {
-        Ok(()) => error,
-        Err(error) => error,
-    }
+    let diagnostics = mistakes.iter().map(Diagnostic::from).collect();
+    with_diagnostics(py, diagnostic::render(mistakes, false), diagnostics)
 }
 
 /// Returns a `GridError` for a dictionary that cannot be written as a grid file. A dictionary has no lines, so the
 /// error has no diagnostics.
 pub(crate) fn no_grid(py: Python<'_>, message: &str) -> PyErr {
-    let error = GridError::new_err(message.to_owned());
-    match error.value(py).setattr("diagnostics", Vec::<Diagnostic>::new()) {
+    with_diagnostics(py, message.to_owned(), Vec::new())
+}
+
+fn with_diagnostics(py: Python<'_>, message: String, diagnostics: Vec<Diagnostic>) -> PyErr {
+    let error = GridError::new_err(message);
+    match error.value(py).setattr("diagnostics", diagnostics) {
         Ok(()) => error,
         Err(error) => error,
     }
@@ -66,8 +68,18 @@ pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
 
 /// Returns a `ValueError` for an experiment without results.
 pub(crate) fn experiment(error: &UserError) -> PyErr {
-    let help = error.help.as_ref().map_or_else(String::new, |help| format!("\n{help}"));
-    PyValueError::new_err(format!("{error}{help}"))
+    with_help(error, error.help.as_ref())
+}
+
+/// Returns a `ValueError` for text that is not a quantity. `name` is the name of the argument with the text.
+pub(crate) fn quantity(name: &str, error: &UnitError) -> PyErr {
+    with_help(error.message(&format!("`{name}`")), error.help())
+}
+
+/// Returns a `ValueError` with a message, and with advice on a line of its own.
+pub(crate) fn with_help(message: impl Display, help: Option<impl Display>) -> PyErr {
+    let help = help.map_or_else(String::new, |help| format!("\n{help}"));
+    PyValueError::new_err(format!("{message}{help}"))
 }
 
 /// Returns a `ValueError` for a motion that could not be computed to its end.
@@ -91,7 +103,10 @@ pub(crate) fn run(error: &RunError) -> PyErr {
 /// Returns the exception for results that were not written or not completed.
 pub(crate) fn job(error: &JobError) -> PyErr {
     let go_on = |error: PyErr, resumable: bool, py: Python<'_>| {
-        if resumable { noted(py, error, "the same call continues the run") } else { error }
+        if !resumable {
+            return error;
+        }
+        error.add_note(py, "the same call continues the run").err().unwrap_or(error)
     };
     Python::attach(|py| match error {
         JobError::Format(error) => PyValueError::new_err(error.to_string()),
@@ -112,11 +127,6 @@ pub(crate) fn job(error: &JobError) -> PyErr {
         JobError::Write { resumable, .. } => go_on(PyOSError::new_err(error.to_string()), *resumable, py),
         JobError::Run { error, resumable } => go_on(run(error), *resumable, py),
     })
-}
-
-/// Adds a note to an exception, and returns the exception.
-fn noted(py: Python<'_>, error: PyErr, note: &str) -> PyErr {
-    error.add_note(py, note).err().unwrap_or(error)
 }
 
 fn create(error: &CreateError) -> PyErr {

@@ -66,8 +66,7 @@ fn refused(error: &ProblemError, goal: &str, is_largest: bool, conditions: &[Str
         Which::Goal => format!("minimise {goal:?}: "),
         Which::Condition(number) => format!("where {:?}: ", conditions[number]),
     };
-    let help = error.help.as_ref().map_or_else(String::new, |help| format!("\n{help}"));
-    PyValueError::new_err(format!("{place}{error}{help}"))
+    error::with_help(format!("{place}{error}"), error.help.as_ref())
 }
 
 /// The answer as a dictionary; see `flapwing.Optimum`.

@@ -1,10 +1,9 @@
 //! Converts text to quantities, for data of the user.
 
 use flap_sweep::notation::units;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::{listing, parameters};
+use crate::{error, listing, parameters};
 
 /// Return the value of a parameter in SI units, from a number or a text with a unit. `model` is a preset or a model.
 #[pyfunction]
@@ -27,12 +26,9 @@ pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<S
 #[pyfunction]
 #[pyo3(signature = (name, text, unit, /))]
 pub(crate) fn quantity(name: &str, text: &str, unit: &str) -> PyResult<f64> {
-    let told = |error: units::UnitError| {
-        let help = error.help().map_or_else(String::new, |help| format!("\n{help}"));
-        PyValueError::new_err(format!("{}{help}", error.message(&format!("`{name}`"))))
-    };
-    let value = units::parse_as(text, unit).map_err(told)?;
+    let refused = |error| error::quantity(name, &error);
+    let value = units::parse_as(text, unit).map_err(refused)?;
     let one =
-        if unit.is_empty() { 1.0 } else { units::parse_as(&format!("1 {unit}"), unit).map_err(told)? };
+        if unit.is_empty() { 1.0 } else { units::parse_as(&format!("1 {unit}"), unit).map_err(refused)? };
     Ok(value / one)
 }

@@ -70,10 +70,9 @@ fn input(chosen: &Chosen, name: &str, from: &Bound<'_, PyAny>, to: &Bound<'_, Py
 
 /// Returns the exception for a map that cannot be computed.
 fn refused(error: WrenchMapError) -> PyErr {
-    let help = error.help().map_or_else(String::new, |help| format!("\n{help}"));
     match error {
         WrenchMapError::Run(error) => error::run(&error),
-        error => PyValueError::new_err(format!("{error}{help}")),
+        error => error::with_help(&error, error.help()),
     }
 }
 
