@@ -2,10 +2,12 @@
 
 use flap_sweep::notation::text::shortened;
 use flap_sweep::notation::units;
-use flap_sweep::resonance::{self, LargeImpulse};
+use flap_sweep::resonance;
 use pyo3::exceptions::{PyException, PyIndexError, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBool, PyString};
+
+use crate::error;
 
 /// Returns a finite number from any type that Python's `float` accepts, except text and truth values.
 ///
@@ -36,9 +38,8 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
 /// is a `ValueError`; other errors are the errors of [`quantity`].
 pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let amplitude = quantity(name, "rad", true, value)?;
-    resonance::impulse(amplitude).map_err(|error| {
-        PyValueError::new_err(format!("`{name}` is too large: {error}\n{}", LargeImpulse::HELP))
-    })
+    resonance::impulse(amplitude)
+        .map_err(|error| error::with_help(format!("`{name}` is too large: {error}"), error.help))
 }
 
 /// Returns a number in `unit` from a number or text with a unit. If `takes_text` is false, text is an error, because

@@ -3,9 +3,10 @@
 use std::ffi::CString;
 
 use flap_core::parameter::{Kind, Parameter};
+use flap_sweep::notation::UserError;
 use flap_sweep::plan::{Along, Plan};
 use flap_sweep::run::{Outcome, RowWriter, Summary};
-use flap_sweep::study::response::{AlongError, BandKind, EdgeRange, Edges, Responses, Verdict};
+use flap_sweep::study::response::{BandKind, EdgeRange, Edges, Responses, Verdict};
 use flap_sweep::table::layout::Layout;
 use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
@@ -150,7 +151,7 @@ fn followed<'py>(
             return Err(PyValueError::new_err(message));
         }
     };
-    Along::new(plan, index, steps, number(tolerance)?, unstable).map_err(impossible)
+    Along::new(plan, index, steps, number(tolerance)?, unstable).map_err(|error| impossible(&error))
 }
 
 /// Returns a value of a parameter; `None` for a choice, because no curve follows a choice.
@@ -163,8 +164,8 @@ fn number(parameter: &Parameter<'_>, value: Option<&Bound<'_, PyAny>>) -> PyResu
     }
 }
 
-fn impossible(AlongError { message, help }: AlongError) -> PyErr {
-    PyValueError::new_err(if help.is_empty() { message } else { format!("{message}: {help}") })
+fn impossible(error: &UserError) -> PyErr {
+    PyValueError::new_err(error.line())
 }
 
 /// Follow the edges of hysteresis; see `flapwing.edges`. Each range is a first value, a last value and a step.
@@ -190,7 +191,7 @@ pub(crate) fn edges<'py>(
     let parameter = &plan.robot().model().parameters()[index];
     let [from, to, step] = second_range.each_ref().map(|value| number(parameter, value.as_ref()));
     let limits = [from?, to?].map(|limit| limit.unwrap_or(f64::NAN));
-    let second = EdgeRange::new(&plan, &along, index, limits, step?).map_err(impossible)?;
+    let second = EdgeRange::new(&plan, &along, index, limits, step?).map_err(|error| impossible(&error))?;
     let plan = plan.following(along);
     let followed = plan.followed().zip(Responses::of(&plan));
     let (along, responses) = followed.ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use flap_core::simulate::Status;
 use flap_sweep::notation::{nearest, units};
-use flap_sweep::resonance::{self, LargeImpulse};
+use flap_sweep::resonance;
 
 /// Target of a trim: the force equals the weight, and all torques are zero.
 pub(crate) const HOVER: &str = "hover";
@@ -113,7 +113,7 @@ pub(super) fn tolerance(text: &str) -> Result<f64, String> {
 /// Parses the size of an impulse, an angle with its unit, and returns it in radians.
 pub(super) fn impulse(text: &str) -> Result<f64, String> {
     let angle = quantity(text, "rad", "20 deg")?;
-    resonance::impulse(angle).map_err(|error| format!("{error}: {}", LargeImpulse::HELP))
+    resonance::impulse(angle).map_err(|error| error.line())
 }
 
 /// Parses a time with its unit and returns it in seconds.

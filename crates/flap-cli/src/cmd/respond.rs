@@ -9,7 +9,7 @@ use flap_core::parameter::Parameter;
 use flap_sweep::notation::units;
 use flap_sweep::plan::{Along, ChangeError, Plan};
 use flap_sweep::run::{RunOptions, Sink, Summary};
-use flap_sweep::study::response::{AlongError, EdgeRange, Starts};
+use flap_sweep::study::response::{EdgeRange, Starts};
 use flap_sweep::table::layout::Cell;
 
 use super::point;
@@ -107,7 +107,7 @@ fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
             }
         };
     let tolerance = amount("--tolerance", &args.tolerance)?;
-    Along::new(plan, index, steps, tolerance, args.unstable).map_err(impossible)
+    Ok(Along::new(plan, index, steps, tolerance, args.unstable)?)
 }
 
 /// Returns the second parameter of edges, from the command line.
@@ -121,12 +121,7 @@ fn second(args: &RespondArgs, plan: &Plan, along: &Along, name: &str) -> Result<
     let range = [limit("--edge-from", &args.edge_from)?, limit("--edge-to", &args.edge_to)?];
     let step =
         args.edge_step.as_deref().map(|text| difference(parameter, "--edge-step", text)).transpose()?;
-    EdgeRange::new(plan, along, index, range, step).map_err(impossible)
-}
-
-fn impossible(AlongError { message, help }: AlongError) -> Failure {
-    let failure = Failure::usage(message);
-    if help.is_empty() { failure } else { failure.help(help) }
+    Ok(EdgeRange::new(plan, along, index, range, step)?)
 }
 
 /// Parses a step, which is more than zero.

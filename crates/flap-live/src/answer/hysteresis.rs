@@ -35,9 +35,10 @@ pub(crate) fn hysteresis(
     let Some(index) = Parameter::index(plan.parameters(), &x.name) else {
         return Err(Refused::impossible(format!("there is no parameter `{}`", x.name)));
     };
-    let (plan, along) = Along::new(plan, index, None, None, false).map_err(|error| {
-        let help = Some(error.help.to_owned()).filter(|help| !help.is_empty());
-        Refused::Impossible { error: error.message, help, parameter: Some(x.name.clone()) }
+    let (plan, along) = Along::new(plan, index, None, None, false).map_err(|error| Refused::Impossible {
+        error: error.message,
+        help: error.help,
+        parameter: Some(x.name.clone()),
     })?;
     let plan = plan.following(along);
     let responses =

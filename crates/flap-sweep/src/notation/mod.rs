@@ -18,3 +18,18 @@ pub struct UserError {
     /// Advice.
     pub help: Option<String>,
 }
+
+impl UserError {
+    /// Returns a mistake with advice, or without advice.
+    pub(crate) fn new(message: String, help: Option<&str>) -> UserError {
+        UserError { message, help: help.map(str::to_owned) }
+    }
+
+    /// Returns the mistake and the advice in one line.
+    pub fn line(&self) -> String {
+        match &self.help {
+            Some(help) => format!("{}: {help}", self.message),
+            None => self.message.clone(),
+        }
+    }
+}

@@ -9,6 +9,7 @@ use flap_core::simulate::{Point, PointRun, Row, Simulator, Status, run_list};
 use super::search::{Found, Peaks, Search, Seen};
 use super::sequence::PointSequence as _;
 use super::target::{Objective, Range, SearchError, Target, has_prescribed_stroke};
+use crate::notation::UserError;
 
 /// Largest number of reported peaks.
 const PEAKS: usize = 2;
@@ -139,26 +140,18 @@ fn gaps(seen: &[Seen]) -> Vec<Gap> {
     gaps
 }
 
-/// Error of an impulse whose amplitude is too large for a wing.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error("an impulse of {:.1} deg ({amplitude} rad) is larger than 180 deg", amplitude.to_degrees())]
-pub struct LargeImpulse {
-    /// Amplitude (rad).
-    amplitude: f64,
-}
-
-impl LargeImpulse {
-    /// Remedy.
-    pub const HELP: &str = "give at most 180 deg, such as \"20 deg\"";
-}
-
 /// Returns the amplitude (rad) of an impulse, if the amplitude is at most 180°. With a larger impulse, the wing would
 /// pass through the body.
 ///
 /// # Errors
-/// [`LargeImpulse`] if the magnitude of the amplitude is larger than π.
-pub fn impulse(amplitude: f64) -> Result<f64, LargeImpulse> {
-    if amplitude.abs() <= PI { Ok(amplitude) } else { Err(LargeImpulse { amplitude }) }
+/// An error with advice if the magnitude of the amplitude is larger than π.
+pub fn impulse(amplitude: f64) -> Result<f64, UserError> {
+    if amplitude.abs() <= PI {
+        return Ok(amplitude);
+    }
+    let degrees = amplitude.to_degrees();
+    let message = format!("an impulse of {degrees:.1} deg ({amplitude} rad) is larger than 180 deg");
+    Err(UserError::new(message, Some("give at most 180 deg, such as \"20 deg\"")))
 }
 
 #[cfg(test)]

@@ -13,6 +13,6 @@ mod search;
 pub mod sequence;
 mod target;
 
-pub use driven::{LargeImpulse, impulse};
+pub use driven::impulse;
 pub use rows::{AtResonance, RESONANCE_HZ, RESONANCE_MARGIN_HZ, measures};
 pub use target::{DRIVE_FREQUENCY, Objective, Range, SearchError};

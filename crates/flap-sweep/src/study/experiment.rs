@@ -13,7 +13,7 @@ pub const CYCLES_MAX: f64 = 100_000.0;
 
 impl From<Unfinished> for UserError {
     fn from(unfinished: Unfinished) -> UserError {
-        UserError { message: unfinished.to_string(), help: None }
+        UserError::new(unfinished.to_string(), None)
     }
 }
 
@@ -50,10 +50,8 @@ pub fn chirp(
             "a chirp of {cycles:.0} drive periods with {samples} samples each has {all:.0} samples: at most {INTERVALS_MAX} are allowed"
         );
         let most = (f64::from(INTERVALS_MAX) / cycles).floor();
-        return Err(UserError {
-            message,
-            help: Some(format!("take at most {most:.0} samples per drive period")),
-        });
+        let help = format!("take at most {most:.0} samples per drive period");
+        return Err(UserError { message, help: Some(help) });
     }
     Ok(model.chirp(run, request)?)
 }
@@ -73,14 +71,11 @@ pub fn forces(
     for row in &rows {
         if let Some(&column) = known.iter().find(|&&column| !row[column].is_finite()) {
             let (name, value, time) = (&columns[column], row[column], row[0]);
-            return Err(UserError {
-                message: format!(
-                    "{name} is {value} at {time:?} s: the forces along this motion are too large for 64-bit floats"
-                ),
-                help: Some(
-                    "compare the parameters with the preset: `flap check` lists large differences".to_owned(),
-                ),
-            });
+            let message = format!(
+                "{name} is {value} at {time:?} s: the forces along this motion are too large for 64-bit floats"
+            );
+            let help = "compare the parameters with the preset: `flap check` lists large differences";
+            return Err(UserError::new(message, Some(help)));
         }
     }
     let kept = |row: &Vec<f64>| known.iter().map(|&column| row[column]).collect();

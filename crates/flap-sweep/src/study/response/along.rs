@@ -3,27 +3,12 @@
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Point;
 
+use crate::notation::UserError;
 use crate::plan::axes::Values;
 use crate::plan::{Admission, Along, Plan};
 
 /// Largest number of values on the upward branch.
 const MOST_VALUES: f64 = 1e6;
-
-/// Error of a parameter that cannot be followed, with advice.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{message}")]
-pub struct AlongError {
-    /// Description of the mistake in one line.
-    pub message: String,
-    /// Advice for the user; may be empty.
-    pub help: &'static str,
-}
-
-impl AlongError {
-    fn new(message: String, help: &'static str) -> AlongError {
-        AlongError { message, help }
-    }
-}
 
 impl Along {
     /// Returns the followed parameter with steps `[from, to, step]` or the values of its axis, and the plan without
@@ -32,7 +17,7 @@ impl Along {
     /// The default `tolerance` is a sixteenth of the shortest step.
     ///
     /// # Errors
-    /// [`AlongError`] in one of the following cases:
+    /// [`UserError`] in one of the following cases:
     ///
     /// - The parameter is a choice, or derived.
     /// - The parameter is varied together with other parameters.
@@ -44,23 +29,23 @@ impl Along {
         steps: Option<[f64; 3]>,
         tolerance: Option<f64>,
         unstable: bool,
-    ) -> Result<(Plan, Along), AlongError> {
+    ) -> Result<(Plan, Along), UserError> {
         let Parameter { name, kind, .. } = plan.parameters()[parameter];
         let name = &*name.to_owned();
         if let Kind::Choice(_) = kind {
-            return Err(AlongError::new(format!("`{name}` is a choice and cannot rise and fall"), ""));
+            return Err(UserError::new(format!("`{name}` is a choice and cannot rise and fall"), None));
         }
         if plan.derived().parameters().any(|derived| derived == parameter) {
             let message = format!("`{name}` is derived from other parameters and cannot rise and fall");
-            return Err(AlongError::new(
+            return Err(UserError::new(
                 message,
-                "remove its formula from [derived], or follow another parameter",
+                Some("remove its formula from [derived], or follow another parameter"),
             ));
         }
         let (plan, axis) = plan.without_axis(parameter);
         if plan.axes().varied().any(|varied| varied == parameter) {
             let message = format!("`{name}` is varied together with other parameters");
-            return Err(AlongError::new(message, "follow a parameter that has its own axis or no axis"));
+            return Err(UserError::new(message, Some("follow a parameter that has its own axis or no axis")));
         }
         let values = match (steps, axis) {
             (Some(steps), _) => self::steps(name, steps)?,
@@ -68,7 +53,7 @@ impl Along {
             (None, None) => {
                 let help = "give the first value, the last and the step, or a grid file with an axis of its own for the \
                             parameter";
-                return Err(AlongError::new(format!("the values of `{name}` are not given"), help));
+                return Err(UserError::new(format!("the values of `{name}` are not given"), Some(help)));
             }
         };
         let shortest = values.windows(2).map(|two| two[1] - two[0]).fold(f64::INFINITY, f64::min);
@@ -76,7 +61,7 @@ impl Along {
         if tolerance > 0.0 {
             Ok((plan, Along { parameter, values, tolerance, unstable }))
         } else {
-            Err(AlongError::new("the tolerance must be more than zero".to_owned(), ""))
+            Err(UserError::new("the tolerance must be more than zero".to_owned(), None))
         }
     }
 
@@ -105,13 +90,13 @@ impl Along {
     }
 }
 
-fn steps(name: &str, [from, to, step]: [f64; 3]) -> Result<Vec<f64>, AlongError> {
+fn steps(name: &str, [from, to, step]: [f64; 3]) -> Result<Vec<f64>, UserError> {
     // A last step that is short because of rounding counts as a step.
     let whole = ((to - from) / step + 1e-9).floor();
     if !(step > 0.0 && (1.0..MOST_VALUES).contains(&whole)) {
         let message = format!("`{name}` cannot rise from {from} to {to} in steps of {step}");
         let help = "the last value must be larger than the first, by one step to a million steps";
-        return Err(AlongError::new(message, help));
+        return Err(UserError::new(message, Some(help)));
     }
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "1 to a million")]
     let count = whole as u64 + 1;
@@ -120,13 +105,13 @@ fn steps(name: &str, [from, to, step]: [f64; 3]) -> Result<Vec<f64>, AlongError>
 }
 
 /// Returns the values of an axis in ascending order.
-fn rising(name: &str, axis: &Values) -> Result<Vec<f64>, AlongError> {
+fn rising(name: &str, axis: &Values) -> Result<Vec<f64>, UserError> {
     let mut values: Vec<f64> = (0..axis.len()).map(|i| axis.get(i)).collect();
     values.sort_by(f64::total_cmp);
     values.dedup();
     if values.len() < 2 {
         let message = format!("the axis of `{name}` has one value, but needs at least two to rise and fall");
-        return Err(AlongError::new(message, ""));
+        return Err(UserError::new(message, None));
     }
     Ok(values)
 }

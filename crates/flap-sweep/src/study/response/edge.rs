@@ -5,8 +5,8 @@ use std::fmt;
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{Point, Unfinished};
 
-use super::along::AlongError;
 use super::verdict::at;
+use crate::notation::UserError;
 use crate::plan::{Along, Plan};
 use crate::table::layout::{Cell, CellKind, Column, Layout, Measure};
 
@@ -34,7 +34,7 @@ impl EdgeRange {
     /// Returns the second parameter of the edges of a plan that follows `along`.
     ///
     /// # Errors
-    /// [`AlongError`] in one of the following cases:
+    /// [`UserError`] in one of the following cases:
     ///
     /// - The parameter is a choice, or the followed parameter.
     /// - The value of the parameter comes from an axis, a formula or other parameters.
@@ -46,11 +46,12 @@ impl EdgeRange {
         parameter: usize,
         range: [f64; 2],
         step: Option<f64>,
-    ) -> Result<EdgeRange, AlongError> {
+    ) -> Result<EdgeRange, UserError> {
         let Parameter { name, kind, unit, .. } = plan.parameters()[parameter];
-        let error = |message: String, help| Err(AlongError { message, help });
+        let error = |message: String, help: &str| Err(UserError::new(message, Some(help)));
         if let Kind::Choice(_) = kind {
-            return error(format!("`{name}` is a choice, so bands have no edge along it"), "");
+            let message = format!("`{name}` is a choice, so bands have no edge along it");
+            return Err(UserError::new(message, None));
         }
         if parameter == along.parameter {
             return error(format!("`{name}` is the followed parameter"), "choose two different parameters");

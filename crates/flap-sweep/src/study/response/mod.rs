@@ -25,7 +25,6 @@ mod run;
 mod verdict;
 
 pub use crate::plan::Along;
-pub use along::AlongError;
 pub use basin::{Basin, Starts};
 pub use curve::{Curve, Step};
 pub use edge::{Edge, EdgeEnd, EdgeKind, EdgeMark, EdgePoint, EdgeRange, Edges};
