@@ -1,9 +1,5 @@
 //! Filmed wings: computes stroke and pitch from points in images.
 
-use flap_core::simulate::Trajectory;
-use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre, strokes};
-use flap_sweep::files::record;
-use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -18,27 +14,8 @@ pub(crate) fn track_wing<'py>(
     chord: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let record = records::read("points", points)?;
-    let times = record.column(&record::TIME).map_err(|error| records::refused(&error))?;
-    let marked = |name: &str| record.points(name).map_err(|error| records::refused(&error));
-    let (roots, tips) = (marked("root")?, marked("tip")?);
-    let edges: Vec<LeadingEdge> =
-        roots.into_iter().zip(tips).map(|(root, tip)| LeadingEdge { root, tip }).collect();
-    let centre = rotation_centre(&edges).map_err(|invalid| PyValueError::new_err(invalid.to_string()))?;
-
-    let mut columns = vec!["time_s".to_owned(), "stroke_deg".to_owned()];
-    let mut rows: Vec<Vec<f64>> =
-        times.iter().zip(strokes(&edges)).map(|(time, stroke)| vec![*time, stroke.to_degrees()]).collect();
-    if let Some(chord) = chord {
-        let chord = convert::number("chord", "a number, in the unit of the points", chord)?;
-        columns.push("pitch_deg".to_owned());
-        let lower = marked("edge")?;
-        for (i, (row, (edge, point))) in rows.iter_mut().zip(edges.iter().zip(lower)).enumerate() {
-            let pitch = pitch_from_projection(edge.distance(point), chord);
-            let pitch =
-                pitch.map_err(|invalid| PyValueError::new_err(format!("image {}: {invalid}", i + 1)))?;
-            row.push(pitch.to_degrees());
-        }
-    }
+    let chord = chord.map(|chord| convert::number("chord", "a number, in the unit of the points", chord));
+    let (motion, centre) = record.tracked(chord.transpose()?).map_err(|error| records::refused(&error))?;
     let meta = PyDict::new(py);
     meta.set_item("centre", (centre[0], centre[1]))?;
     let meaning = |name: &str| {
@@ -49,5 +26,5 @@ pub(crate) fn track_wing<'py>(
         };
         doc.to_owned()
     };
-    motion::into_python(py, Trajectory { columns, rows }, meaning, &meta)
+    motion::into_python(py, motion, meaning, &meta)
 }

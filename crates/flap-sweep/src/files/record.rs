@@ -5,6 +5,8 @@ use std::io;
 use std::path::Path;
 
 use flap_core::drive::{Repeat, Samples};
+use flap_core::simulate::Trajectory;
+use flap_experiments::tracking::{LeadingEdge, pitch_from_projection, rotation_centre, strokes};
 
 use crate::files::csv_sink::cause;
 use crate::input::{self, MOST_BYTES};
@@ -178,6 +180,36 @@ impl Record {
             )));
         }
         Samples::new(&times, &values, repeat).map_err(|error| self.wrong(&error.to_string()))
+    }
+
+    /// Returns stroke and pitch of a filmed wing over the record's time, and the wing's centre of rotation.
+    ///
+    /// The wing has the points `root` and `tip` in every image. The pitch requires `chord` (in the unit of the points)
+    /// and the point `edge`.
+    ///
+    /// # Errors
+    /// - [`RecordError::Wrong`] if the points have no centre of rotation, or the chord appears longer than `chord`.
+    /// - The errors of [`Record::column`].
+    pub fn tracked(&self, chord: Option<f64>) -> Result<(Trajectory, [f64; 2]), RecordError> {
+        let times = self.column(&TIME)?;
+        let edges = self.points("root")?.into_iter().zip(self.points("tip")?);
+        let edges: Vec<LeadingEdge> = edges.map(|(root, tip)| LeadingEdge { root, tip }).collect();
+        let centre = rotation_centre(&edges).map_err(|invalid| RecordError::Wrong(invalid.to_string()))?;
+        let mut columns = vec!["time_s".to_owned(), "stroke_deg".to_owned()];
+        let strokes = times.iter().zip(strokes(&edges));
+        let mut rows: Vec<Vec<f64>> =
+            strokes.map(|(time, stroke)| vec![*time, stroke.to_degrees()]).collect();
+        if let Some(chord) = chord {
+            columns.push("pitch_deg".to_owned());
+            let points = edges.iter().zip(self.points("edge")?);
+            for (i, (row, (edge, point))) in rows.iter_mut().zip(points).enumerate() {
+                let pitch = pitch_from_projection(edge.distance(point), chord);
+                let pitch =
+                    pitch.map_err(|invalid| RecordError::Wrong(format!("image {}: {invalid}", i + 1)))?;
+                row.push(pitch.to_degrees());
+            }
+        }
+        Ok((Trajectory { columns, rows }, centre))
     }
 
     fn wrong(&self, reason: &str) -> RecordError {
