@@ -254,12 +254,6 @@ impl From<UserError> for Failure {
     }
 }
 
-impl From<JobError> for Failure {
-    fn from(error: JobError) -> Failure {
-        Failure::of_job(error, Path::new("-"))
-    }
-}
-
 impl From<CreateError> for Failure {
     fn from(error: CreateError) -> Failure {
         match error {

@@ -12,6 +12,7 @@ use flap_core::vehicle::{MassProperties, Vehicle};
 use flap_sweep::files::linear_model::LinearModel;
 use flap_sweep::notation::text;
 use flap_sweep::vehicle::control::{COMPONENTS, ControlError, Effectiveness, Flight, Input, Target, trim};
+use flap_sweep::vehicle::hover::damping;
 
 use self::parts::{HEADINGS, input, tidy, title};
 use super::point::Chosen;
@@ -76,7 +77,7 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     if let Some(seconds) = args.fly {
         return fly::run(args, seconds, &flight, &values, &found.inputs);
     }
-    let damping = if args.damping { Some(hover::damping(&flight, &values, &found)?) } else { None };
+    let damping = if args.damping { Some(damping(&flight, &values, &found.row.state)?) } else { None };
     let model = if args.hover || export.is_some() {
         Some(LinearModel::at(&flight, &values, &found, false, chosen.title())?)
     } else {

@@ -9,7 +9,7 @@ use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::linear_model::{LinearFormat, LinearModel};
 use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
-use flap_sweep::vehicle::control::{Effectiveness, Flight, Target};
+use flap_sweep::vehicle::control::Target;
 use flap_sweep::vehicle::hover::{self, HoverError, HoverMode, STATES, WRENCH_UNITS, component};
 use nalgebra::Matrix6;
 
@@ -53,15 +53,6 @@ pub(super) fn targets(body: &MassProperties) -> Result<Vec<Target>, Failure> {
         let failure = Failure::usage("--trim hover: total_mass is not set");
         failure.help("add total_mass to [vehicle], or use --set, as in --set total_mass='85 mg'")
     })
-}
-
-/// Returns the damping matrix at an operating point (SI).
-pub(super) fn damping(
-    flight: &Flight<'_>,
-    values: &[f64],
-    at: &Effectiveness,
-) -> Result<Matrix6<f64>, Failure> {
-    Ok(hover::damping(flight, values, &at.row.state)?)
 }
 
 /// Writes a file with the linear model.
