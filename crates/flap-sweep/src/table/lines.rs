@@ -23,7 +23,10 @@ impl<W: Write> Lines<W> {
 
     /// Writes a line of text cells.
     pub(crate) fn texts<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> io::Result<()> {
-        push_line(&mut self.line, cells);
+        for cell in cells {
+            push_word(&mut self.line, cell.as_ref());
+            self.line.push(',');
+        }
         self.end()
     }
 
@@ -44,7 +47,8 @@ impl<W: Write> Lines<W> {
 
     /// Writes the line. The end of the line replaces the last comma.
     fn end(&mut self) -> io::Result<()> {
-        end_line(&mut self.line);
+        self.line.pop();
+        self.line.push('\n');
         let written = self.target.write_all(self.line.as_bytes());
         self.line.clear();
         written
@@ -59,28 +63,6 @@ impl<W: Write> Lines<W> {
     pub(crate) fn target(&self) -> &W {
         self.target.get_ref()
     }
-}
-
-/// Appends the line of text cells, without the end of the line.
-fn push_line<T: AsRef<str>>(line: &mut String, cells: impl IntoIterator<Item = T>) {
-    for cell in cells {
-        push_word(line, cell.as_ref());
-        line.push(',');
-    }
-}
-
-/// Replaces the last comma by the end of the line.
-fn end_line(line: &mut String) {
-    line.pop();
-    line.push('\n');
-}
-
-/// Sets `line` to the line of the given cells, with the end of the line.
-#[cfg(feature = "parquet")]
-pub(crate) fn set_line<T: AsRef<str>>(line: &mut String, cells: impl IntoIterator<Item = T>) {
-    line.clear();
-    push_line(line, cells);
-    end_line(line);
 }
 
 /// Appends a cell, in quotes if necessary.

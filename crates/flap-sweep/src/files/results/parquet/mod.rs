@@ -17,7 +17,7 @@ use crate::files::results::checksum::{Checksums, TextDigest};
 use crate::files::results::provenance::Provenance;
 use crate::files::results::text::Hashed;
 use crate::table::layout::{Cell, CellKind, Column};
-use crate::table::lines;
+use crate::table::lines::Lines;
 
 mod read;
 
@@ -31,9 +31,8 @@ pub(crate) struct ParquetRows {
     writer: SerializedFileWriter<Hashed>,
     columns: Vec<Cells>,
     rows: usize,
-    text: TextDigest,
-    /// The row as text. The string is kept to reuse its memory.
-    line: String,
+    /// Digest of the rows as text.
+    text: Lines<TextDigest>,
 }
 
 impl ParquetRows {
@@ -55,11 +54,10 @@ impl ParquetRows {
         }
         let schema = Arc::new(schema.map_err(io_error)?);
         let writer = SerializedFileWriter::new(Hashed::new(file), schema, Arc::new(properties.build()));
-        let (mut text, mut line) = (TextDigest::new(), String::new());
-        lines::set_line(&mut line, columns.iter().map(|column| &column.name));
-        text.update(line.as_bytes());
+        let mut text = Lines::new(TextDigest::new());
+        text.texts(columns.iter().map(|column| &column.name))?;
         let columns = columns.iter().map(Cells::new).collect();
-        Ok(ParquetRows { writer: writer.map_err(io_error)?, columns, rows: 0, text, line })
+        Ok(ParquetRows { writer: writer.map_err(io_error)?, columns, rows: 0, text })
     }
 
     /// Writes a row.
@@ -71,8 +69,7 @@ impl ParquetRows {
         for (column, cell) in self.columns.iter_mut().zip(cells) {
             column.push(cell)?;
         }
-        lines::set_line(&mut self.line, cells);
-        self.text.update(self.line.as_bytes());
+        self.text.texts(cells)?;
         self.rows += 1;
         if self.rows == GROUP_ROWS { self.write_group() } else { Ok(()) }
     }
@@ -84,7 +81,8 @@ impl ParquetRows {
         }
         let written = self.writer.into_inner().map_err(io_error)?;
         written.file.sync_all()?;
-        Ok(self.text.checksums(Some(written.sum())))
+        self.text.flush()?;
+        Ok(self.text.target().checksums(Some(written.sum())))
     }
 
     fn write_group(&mut self) -> io::Result<()> {

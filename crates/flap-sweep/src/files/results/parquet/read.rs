@@ -19,7 +19,7 @@ use parquet::schema::types::Type;
 use super::io_error;
 use crate::files::results::checksum::TextDigest;
 use crate::notation::text;
-use crate::table::lines;
+use crate::table::lines::Lines;
 
 /// Reads rows as the text from which the file was written. Files of other programs are accepted if their cells are
 /// numbers, booleans or text.
@@ -118,19 +118,18 @@ fn refuse_compression(metadata: &ParquetMetaData) -> io::Result<()> {
 /// Returns the digest of the rows in a file as text, and an error if the digest ends where the file cannot be
 /// decoded.
 pub(crate) fn sum_up(file: File) -> (TextDigest, io::Result<()>) {
-    let mut digest = TextDigest::new();
+    let mut lines = Lines::new(TextDigest::new());
     let summed = ParquetReader::new(file).and_then(|mut reader| {
-        let mut line = String::new();
-        lines::set_line(&mut line, &reader.names);
-        digest.update(line.as_bytes());
+        lines.texts(&reader.names)?;
         let mut row = StringRecord::new();
         while reader.next(&mut row)? {
-            lines::set_line(&mut line, &row);
-            digest.update(line.as_bytes());
+            lines.texts(&row)?;
         }
         Ok(())
     });
-    (digest, summed)
+    // The digest contains the rows before damage.
+    let flushed = lines.flush();
+    (lines.target().clone(), summed.and(flushed))
 }
 
 thread_local! {
