@@ -171,37 +171,20 @@ pub fn merge(
     let mut sources = Vec::with_capacity(parts.len());
     // The next row of every shard, with the first point on top.
     let mut next = BinaryHeap::with_capacity(parts.len());
-    for (part, reader) in parts.iter().zip(readers) {
-        let mut source = Source::new(part, reader, plan)?;
-        next.extend(source.advance()?.map(|point| Reverse((point, sources.len()))));
+    let unreadable =
+        |number: usize| move |source| MergeError::Read { path: parts[number].path.clone(), source };
+    for (number, (part, reader)) in parts.iter().zip(readers).enumerate() {
+        let selection = part.shard().map_or(Selection::All, Selection::Shard);
+        let check = RowCheck::of(plan, selection, part.sidecar.rows());
+        let mut source = Checked::new(reader, check).map_err(unreadable(number))?;
+        next.extend(source.next().map_err(unreadable(number))?.map(|point| Reverse((point, number))));
         sources.push(source);
     }
     let mut writer = Writer::new(to.0, to.1, &Provenance::of(plan, &whole.identity))?;
     while let Some(Reverse((_, number))) = next.pop() {
         let source = &mut sources[number];
-        writer.row(source.rows.row())?;
-        next.extend(source.advance()?.map(|point| Reverse((point, number))));
+        writer.row(source.row())?;
+        next.extend(source.next().map_err(unreadable(number))?.map(|point| Reverse((point, number))));
     }
     Ok(writer.finish()?)
-}
-
-/// Source of the rows of one shard.
-struct Source<'a> {
-    path: &'a Path,
-    rows: Checked<'a>,
-}
-
-impl Source<'_> {
-    fn new<'a>(part: &'a Part, reader: &'a mut Reader, plan: &Plan) -> Result<Source<'a>, MergeError> {
-        let selection = part.shard().map_or(Selection::All, Selection::Shard);
-        let check = RowCheck::of(plan, selection, part.sidecar.rows());
-        let rows = Checked::new(reader, check)
-            .map_err(|source| MergeError::Read { path: part.path.clone(), source })?;
-        Ok(Source { path: &part.path, rows })
-    }
-
-    /// Reads the next row and returns its point.
-    fn advance(&mut self) -> Result<Option<u64>, MergeError> {
-        self.rows.next().map_err(|source| MergeError::Read { path: self.path.to_owned(), source })
-    }
 }
