@@ -6,7 +6,8 @@ use flap_core::simulate::{
 };
 
 use super::curve::{Comparison, Curve, Step, compare, component_sizes};
-use crate::plan::{Along, Plan, sample};
+use super::run::Responses;
+use crate::plan::{Plan, sample};
 
 /// Number of samples of an orbit from which the range of the states is computed.
 const SAMPLES: u32 = 64;
@@ -43,47 +44,53 @@ impl Basin {
     }
 }
 
-/// Returns the basins at all values at which both branches have different orbits, in ascending order.
-///
-/// The initial states are uniformly distributed over a box: the smallest and largest value of each state component on
-/// both orbits. The motions are integrated period by period until they settle, because Newton's iteration may leave a
-/// basin.
-pub(super) fn basins(
-    plan: &Plan,
-    along: &Along,
-    curve: &Curve,
-    starts: Starts,
-    backend: Backend,
-    interrupted: Interrupt<'_>,
-) -> Result<Vec<Basin>, Unfinished> {
-    let sizes = component_sizes(&curve.up, &curve.down);
-    let solver = SolverSettings { newton: false, ..*plan.solver() };
-    let mut found = Vec::new();
-    for (up, down) in curve.up.iter().zip(&curve.down) {
-        let orbits = [up, down];
-        let are_orbits = orbits.iter().all(|step| step.row.stable() == Some(true));
-        if !are_orbits || compare(&up.row, &down.row, &sizes) != Comparison::Different {
-            continue;
+impl Responses<'_> {
+    /// Returns the basins of both branches at the values of `curve` at which the branches have different orbits, in
+    /// ascending order.
+    ///
+    /// The initial states are uniformly distributed over a box: the smallest and largest value of each state component on
+    /// both orbits. The motions are integrated period by period until they settle, because Newton's iteration may leave a
+    /// basin.
+    ///
+    /// # Errors
+    /// [`Unfinished`] if the model computes only rows, if an orbit cannot be sampled, or after an interruption.
+    pub fn basins(
+        self,
+        curve: &Curve,
+        starts: Starts,
+        interrupted: Interrupt<'_>,
+    ) -> Result<Vec<Basin>, Unfinished> {
+        let Responses { plan, along } = self;
+        let backend = Backend::best();
+        let sizes = component_sizes(&curve.up, &curve.down);
+        let solver = SolverSettings { newton: false, ..*plan.solver() };
+        let mut found = Vec::new();
+        for (up, down) in curve.up.iter().zip(&curve.down) {
+            let orbits = [up, down];
+            let are_orbits = orbits.iter().all(|step| step.row.stable() == Some(true));
+            if !are_orbits || compare(&up.row, &down.row, &sizes) != Comparison::Different {
+                continue;
+            }
+            let values = along.values_at(plan, &curve.design, up.value);
+            let run = PointRun::new(backend, plan.solver(), &values).until(interrupted);
+            let mut motions = Motions {
+                ranges: ranges(plan, &run, orbits)?,
+                values: &values,
+                orbits,
+                sizes: &sizes,
+                starts,
+                next: 0,
+                counts: [0; 3],
+                interrupted,
+            };
+            plan.simulator().run(backend, &solver, &mut motions);
+            if interrupted() {
+                return Err(Unfinished::Interrupted);
+            }
+            found.push(Basin { value: up.value, count: starts.count, motions: motions.counts });
         }
-        let values = along.values_at(plan, &curve.design, up.value);
-        let run = PointRun::new(backend, plan.solver(), &values).until(interrupted);
-        let mut motions = Motions {
-            ranges: ranges(plan, &run, orbits)?,
-            values: &values,
-            orbits,
-            sizes: &sizes,
-            starts,
-            next: 0,
-            counts: [0; 3],
-            interrupted,
-        };
-        plan.simulator().run(backend, &solver, &mut motions);
-        if interrupted() {
-            return Err(Unfinished::Interrupted);
-        }
-        found.push(Basin { value: up.value, count: starts.count, motions: motions.counts });
+        Ok(found)
     }
-    Ok(found)
 }
 
 /// Returns the smallest and largest value of each state component on two orbits.

@@ -29,7 +29,8 @@ use nalgebra::{DMatrix, DVector, Dyn, LU, RowDVector};
 
 use super::curve::{Comparison, Curve, Step, compare, component_sizes};
 use super::edge::{CRITICAL, Edge, EdgeEnd, EdgeKind, EdgeMark, EdgePoint, EdgeRange, Edges, MOST};
-use crate::plan::{Along, Plan};
+use super::run::Responses;
+use crate::plan::Plan;
 
 /// Initial, shortest and longest distance between neighbouring points of an edge. A distance of 1 corresponds to about
 /// the range of a parameter, and to the largest magnitude of a state component.
@@ -64,63 +65,65 @@ const CONVERGED: f64 = 0.1;
 /// Largest distance of a point from the chord between two points of the same edge, relative to the length of the chord.
 const ON_CHORD: f64 = 0.2;
 
-/// Returns the edges that begin at the ends of the bands of a curve. If `interrupted` returns true, the computation
-/// ends early.
-pub(super) fn edges(
-    plan: &Plan,
-    along: &Along,
-    second: &EdgeRange,
-    curve: &Curve,
-    backend: Backend,
-    interrupted: Interrupt<'_>,
-) -> Edges {
-    let compared = component_sizes(&curve.up, &curve.down);
-    let mut sizes = compared.clone();
-    // A component that is always zero has no size.
-    sizes.iter_mut().filter(|size| **size == 0.0).for_each(|size| *size = 1.0);
-    let SolverSettings { rtol, atol, .. } = *plan.solver();
-    let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..*plan.solver() };
-    let range = [along.values[0], along.values[along.values.len() - 1]];
-    let ranges = [range, second.range];
-    let plane = |kind| Plane {
-        plan,
-        backend,
-        solver,
-        design: &curve.design,
-        parameters: [along.parameter, second.parameter],
-        ranges,
-        sizes: &sizes,
-        units: ranges.map(|[from, to]| power_of_two(to - from)),
-        converged: CONVERGED * rtol,
-        kind,
-        interrupted,
-    };
-    let comparisons: Vec<Comparison> =
-        curve.up.iter().zip(&curve.down).map(|(up, down)| compare(&up.row, &down.row, &compared)).collect();
-    let mut found = Edges { edges: Vec::new(), missed: Vec::new() };
-    // The points of the continuation for each of these edges.
-    let mut traces: Vec<Vec<DVector<f64>>> = Vec::new();
-    for place in 1..comparisons.len() {
-        if comparisons[place - 1] == comparisons[place] || interrupted() {
-            continue;
-        }
-        let motions = [place - 1, place].map(|index| [&curve.up[index], &curve.down[index]]).concat();
-        let start = EdgeKind::ALL.into_iter().find_map(|kind| {
-            let plane = plane(kind);
-            plane.start(&motions, second).map(|start| (plane, start))
-        });
-        let Some((plane, start)) = start else {
-            found.missed.push(0.5 * (curve.up[place - 1].value + curve.up[place].value));
-            continue;
+impl Responses<'_> {
+    /// Returns the edges of the bands of two motions in `curve`. Each edge is a line in the plane of two parameters: the
+    /// parameter of the response, and the parameter `second`. `curve` is a response of the same plan.
+    ///
+    /// If the computation is interrupted, the edges are incomplete.
+    pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {
+        let Responses { plan, along } = self;
+        let compared = component_sizes(&curve.up, &curve.down);
+        let mut sizes = compared.clone();
+        // A component that is always zero has no size.
+        sizes.iter_mut().filter(|size| **size == 0.0).for_each(|size| *size = 1.0);
+        let SolverSettings { rtol, atol, .. } = *plan.solver();
+        let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..*plan.solver() };
+        let range = [along.values[0], along.values[along.values.len() - 1]];
+        let ranges = [range, second.range];
+        let plane = |kind| Plane {
+            plan,
+            backend: Backend::best(),
+            solver,
+            design: &curve.design,
+            parameters: [along.parameter, second.parameter],
+            ranges,
+            sizes: &sizes,
+            units: ranges.map(|[from, to]| power_of_two(to - from)),
+            converged: CONVERGED * rtol,
+            kind,
+            interrupted,
         };
-        if traces.iter().any(|trace| is_on(trace, &start.place)) {
-            continue;
+        let comparisons: Vec<Comparison> = curve
+            .up
+            .iter()
+            .zip(&curve.down)
+            .map(|(up, down)| compare(&up.row, &down.row, &compared))
+            .collect();
+        let mut found = Edges { edges: Vec::new(), missed: Vec::new() };
+        // The points of the continuation for each of these edges.
+        let mut traces: Vec<Vec<DVector<f64>>> = Vec::new();
+        for place in 1..comparisons.len() {
+            if comparisons[place - 1] == comparisons[place] || interrupted() {
+                continue;
+            }
+            let motions = [place - 1, place].map(|index| [&curve.up[index], &curve.down[index]]).concat();
+            let start = EdgeKind::ALL.into_iter().find_map(|kind| {
+                let plane = plane(kind);
+                plane.start(&motions, second).map(|start| (plane, start))
+            });
+            let Some((plane, start)) = start else {
+                found.missed.push(0.5 * (curve.up[place - 1].value + curve.up[place].value));
+                continue;
+            };
+            if traces.iter().any(|trace| is_on(trace, &start.place)) {
+                continue;
+            }
+            let (edge, trace) = plane.trace(&start, second);
+            found.edges.push(edge);
+            traces.push(trace);
         }
-        let (edge, trace) = plane.trace(&start, second);
-        found.edges.push(edge);
-        traces.push(trace);
+        found
     }
-    found
 }
 
 /// Returns the power of two nearest to a width. Divisions by a power of two are exact.

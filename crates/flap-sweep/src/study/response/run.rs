@@ -3,13 +3,10 @@
 use std::sync::Arc;
 
 use flap_core::num::Backend;
-use flap_core::simulate::{Interrupt, Point, Row, Status, Unfinished, never};
+use flap_core::simulate::{Interrupt, Point, Row, Status, never};
 
-use super::basin::{self, Basin, Starts};
 use super::continuation;
 use super::curve::{Curve, Step};
-use super::edge::{EdgeRange, Edges};
-use super::edge_continuation;
 use super::follow::Follow;
 use crate::plan::{Admission, Along, Plan};
 use crate::resonance::sequence::{self, SequenceSource};
@@ -24,8 +21,8 @@ const AHEAD: [usize; 2] = [16, 128];
 /// parameter.
 #[derive(Clone, Copy)]
 pub struct Responses<'a> {
-    plan: &'a Plan,
-    along: &'a Along,
+    pub(super) plan: &'a Plan,
+    pub(super) along: &'a Along,
 }
 
 impl<'a> Responses<'a> {
@@ -57,27 +54,6 @@ impl<'a> Responses<'a> {
         let mut follow = Follow::new(self.plan, self.along, design);
         sequence::run_one(self.plan.simulator(), backend, self.plan.solver(), &mut follow);
         self.complete(follow.finish(), backend, &never)
-    }
-
-    /// Returns the edges of the bands of two motions in `curve`. Each edge is a line in the plane of two parameters: the
-    /// parameter of the response, and the parameter `second`. `curve` is a response of the same plan.
-    ///
-    /// If the computation is interrupted, the edges are incomplete.
-    pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {
-        edge_continuation::edges(self.plan, self.along, second, curve, Backend::best(), interrupted)
-    }
-
-    /// Returns the basins of both branches at the values of `curve` at which the branches have different orbits.
-    ///
-    /// # Errors
-    /// [`Unfinished`] if the model computes only rows, if an orbit cannot be sampled, or after an interruption.
-    pub fn basins(
-        self,
-        curve: &Curve,
-        starts: Starts,
-        interrupted: Interrupt<'_>,
-    ) -> Result<Vec<Basin>, Unfinished> {
-        basin::basins(self.plan, self.along, curve, starts, Backend::best(), interrupted)
     }
 
     /// Adds the unstable orbits to a curve, if requested, and adds the measures of the plan to all rows of the curve.
