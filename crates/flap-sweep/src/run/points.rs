@@ -101,20 +101,6 @@ fn completed(
     Ok(Some(Outcome::Ran(row)))
 }
 
-/// Adds the measures and derivatives of the plan to `row`, which the model has computed for `point`.
-///
-/// Returns false if the run was interrupted.
-pub fn add_columns(
-    plan: &Plan,
-    instructions: Backend,
-    point: &Point,
-    row: &mut Row,
-    interrupted: Interrupt<'_>,
-) -> bool {
-    plan.add_own_measures(&point.values, &mut row.measures);
-    add_gradient(plan, instructions, point, row, interrupted)
-}
-
 /// Largest number of points per thread for which scalars are faster than lanes, most of which would stay empty.
 const FEW: u64 = 2;
 
@@ -169,18 +155,18 @@ impl Jobs for Points<'_, '_> {
 /// measures.
 const OWN_SHARE: f64 = 1e-5;
 
-/// Adds the derivatives of the plan to the measures of the row of `point`, which already contain the measures of the
-/// plan.
+/// Adds the measures and derivatives of the plan to `row`, which the model has computed for `point`.
 ///
 /// The last added value contains the reasons for missing derivatives, as a sum of powers of two by their index in
 /// [`NoSlope::ALL`]. The sum is NaN if no derivative is missing. Returns false if the run was interrupted.
-fn add_gradient(
+pub fn add_columns(
     plan: &Plan,
     instructions: Backend,
     point: &Point,
     row: &mut Row,
     interrupted: Interrupt<'_>,
 ) -> bool {
+    plan.add_own_measures(&point.values, &mut row.measures);
     let Some(gradient) = plan.gradient().filter(|_| !row.measures.is_empty()) else { return true };
     let changes = gradient.with_respect_to.iter().map(|&parameter| {
         let changed = |share| changed(plan, gradient.per, point, parameter, share);
