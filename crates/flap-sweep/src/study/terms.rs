@@ -5,48 +5,37 @@ use flap_core::simulate::{PointRun, Row, Status};
 
 use crate::plan::Plan;
 
-/// A term: a parameter with a typical size, for the models that have this size.
-struct Term {
-    parameter: &'static str,
-    size: f64,
-    models: &'static [&'static str],
-}
-
 const ALL: &[&str] = &["bimorph", "direct-drive", "four-bar"];
 const BIMORPH: &[&str] = &["bimorph"];
 const OTHERS: &[&str] = &["direct-drive", "four-bar"];
 
-const fn term(parameter: &'static str, size: f64, models: &'static [&'static str]) -> Term {
-    Term { parameter, size, models }
-}
-
-/// Terms in the order of the manual (`docs/models/terms.md`).
-const TERMS: [Term; 24] = [
+/// Terms in the order of the manual (`docs/models/terms.md`): parameter, typical size, and the models with this size.
+const TERMS: [(&str, f64, &[&str]); 24] = [
     // The effect of this size is similar to the effect of the loss factor below.
-    term("stroke_damping", 5e-9, BIMORPH),
-    term("stroke_damping", 5e-7, OTHERS),
-    term("stroke_loss_factor", 0.1, ALL),
-    term("hinge_damping", 1e-9, ALL),
-    term("hinge_loss_factor", 0.1, ALL),
-    term("stroke_stiffening", 1e-5, BIMORPH),
-    term("hinge_stiffening", 1e-6, BIMORPH),
-    term("hinge_stiffening", 3e-5, OTHERS),
-    term("hinge_stop_stiffness", 3e-5, ALL),
-    term("drag_term_0", 0.3, ALL),
-    term("drag_term_1", 0.3, ALL),
-    term("lift_term_1", 0.3, ALL),
-    term("lift_term_2", 0.3, ALL),
-    term("pressure_term_0", 0.05, ALL),
-    term("pressure_term_1", 0.05, ALL),
-    term("circulation_factor", 1.0, ALL),
-    term("rotation_force_factor", 1.0, ALL),
-    term("added_mass_factor", 1.0, BIMORPH),
-    term("modulus_decline", 1e-7, BIMORPH),
-    term("transmission_growth", 4.4e9, BIMORPH),
-    term("drive_offset", 20.0, BIMORPH),
-    term("plate_ratio", 0.9, BIMORPH),
-    term("dielectric_loss", 0.13, ALL),
-    term("charge_recovery", 0.42, ALL),
+    ("stroke_damping", 5e-9, BIMORPH),
+    ("stroke_damping", 5e-7, OTHERS),
+    ("stroke_loss_factor", 0.1, ALL),
+    ("hinge_damping", 1e-9, ALL),
+    ("hinge_loss_factor", 0.1, ALL),
+    ("stroke_stiffening", 1e-5, BIMORPH),
+    ("hinge_stiffening", 1e-6, BIMORPH),
+    ("hinge_stiffening", 3e-5, OTHERS),
+    ("hinge_stop_stiffness", 3e-5, ALL),
+    ("drag_term_0", 0.3, ALL),
+    ("drag_term_1", 0.3, ALL),
+    ("lift_term_1", 0.3, ALL),
+    ("lift_term_2", 0.3, ALL),
+    ("pressure_term_0", 0.05, ALL),
+    ("pressure_term_1", 0.05, ALL),
+    ("circulation_factor", 1.0, ALL),
+    ("rotation_force_factor", 1.0, ALL),
+    ("added_mass_factor", 1.0, BIMORPH),
+    ("modulus_decline", 1e-7, BIMORPH),
+    ("transmission_growth", 4.4e9, BIMORPH),
+    ("drive_offset", 20.0, BIMORPH),
+    ("plate_ratio", 0.9, BIMORPH),
+    ("dielectric_loss", 0.13, ALL),
+    ("charge_recovery", 0.42, ALL),
 ];
 
 /// A term of a design that is switched on or off.
@@ -75,13 +64,13 @@ impl Effect {
 /// Derived parameters of the plan are updated, except parameters in `fixed`, which have their own values.
 pub fn effects(plan: &Plan, run: &PointRun<'_>, fixed: &[usize]) -> Vec<Effect> {
     let simulator = plan.robot().model();
-    let known = TERMS.iter().filter(|term| term.models.contains(&simulator.name()));
-    let changes = known.filter_map(|term| {
-        let parameter = Parameter::index(simulator.parameters(), term.parameter)?;
+    let known = TERMS.iter().filter(|(_, _, models)| models.contains(&simulator.name()));
+    let changes = known.filter_map(|&(parameter, size, _)| {
+        let parameter = Parameter::index(simulator.parameters(), parameter)?;
         let before = run.values[parameter];
         let off = simulator.parameters()[parameter].default;
         let off = if off.is_nan() { 0.0 } else { off };
-        Some((parameter, before, if before == off { term.size } else { off }))
+        Some((parameter, before, if before == off { size } else { off }))
     });
     changes
         .map(|(parameter, before, after)| {
