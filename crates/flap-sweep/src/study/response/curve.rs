@@ -30,9 +30,17 @@ pub struct Curve {
     pub unstable: Vec<Step>,
 }
 
-/// Returns the sizes of the state's components on both branches.
+/// Returns the sizes of the state's components: the largest magnitude of each component on both branches.
 pub(super) fn component_sizes(up: &[Step], down: &[Step]) -> Vec<f64> {
-    sizes(up.iter().chain(down).map(|step| &step.row))
+    let mut sizes: Vec<f64> = Vec::new();
+    let motions = up.iter().chain(down).map(|step| &step.row);
+    for row in motions.filter(|row| row.status == Status::Periodic) {
+        sizes.resize(sizes.len().max(row.state.len()), 0.0);
+        for (size, y) in sizes.iter_mut().zip(&row.state) {
+            *size = size.max(y.abs());
+        }
+    }
+    sizes
 }
 
 impl Curve {
@@ -106,18 +114,6 @@ pub(super) enum Comparison {
     Different,
     /// Neither motion is periodic with the drive.
     Irregular,
-}
-
-/// Returns the sizes of the state's components: the largest magnitude of each component in the motions of a curve.
-pub(super) fn sizes<'a>(motions: impl Iterator<Item = &'a Row>) -> Vec<f64> {
-    let mut sizes: Vec<f64> = Vec::new();
-    for row in motions.filter(|row| row.status == Status::Periodic) {
-        sizes.resize(sizes.len().max(row.state.len()), 0.0);
-        for (size, y) in sizes.iter_mut().zip(&row.state) {
-            *size = size.max(y.abs());
-        }
-    }
-    sizes
 }
 
 /// Compares two motions at the same drive. `sizes` are the sizes of the state's components.
