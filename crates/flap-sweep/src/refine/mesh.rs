@@ -1,6 +1,5 @@
 //! Boxes between points: corners of boxes, halving of boxes, and the choice of the next points.
 
-use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::estimate::{self, Edge, Tolerance};
@@ -191,14 +190,11 @@ impl Mesh {
     }
 
     /// Replaces each chosen box by its halves along an axis.
-    fn halve(&mut self, mut chosen: Vec<(usize, usize)>) {
-        chosen.sort_unstable_by_key(|(cell, _)| Reverse(*cell));
+    fn halve(&mut self, chosen: Vec<(usize, usize)>) {
         for (number, axis) in chosen {
+            self.cells[number].halvings[axis] += 1;
             let mut upper = self.cells[number].clone();
-            upper.halvings[axis] += 1;
-            let mut lower = upper.clone();
             upper.low.at[axis] += self.length(&upper, axis);
-            std::mem::swap(&mut self.cells[number], &mut lower);
             self.cells.push(upper);
         }
     }
