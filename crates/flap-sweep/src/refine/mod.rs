@@ -184,7 +184,7 @@ pub fn replay(
     let mut plan = plan.clone();
     for index in 0..done {
         if index >= plan.len() {
-            plan = grown(plan, &mut refinement);
+            plan = plan.followed_by(refinement.next_round());
         }
         if index >= plan.len() {
             return Err(not_next(index));
@@ -205,11 +205,6 @@ pub fn replay(
         });
     }
     Ok(Some((plan, refinement)))
-}
-
-/// Returns the plan with the points of the next round.
-pub(crate) fn grown(plan: Plan, refinement: &mut Refinement) -> Plan {
-    plan.followed_by(refinement.next_round())
 }
 
 fn not_next(index: u64) -> io::Error {
