@@ -39,10 +39,6 @@ impl<W: Write> Sink for CsvSink<W> {
     fn flush(&mut self) -> io::Result<()> {
         self.lines.flush()
     }
-
-    fn finish(&mut self) -> io::Result<()> {
-        self.lines.flush()
-    }
 }
 
 /// Returns the error of the operating system, such as a closed pipe, or [`io::ErrorKind::InvalidData`] with the

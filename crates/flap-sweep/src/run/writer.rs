@@ -59,12 +59,12 @@ pub trait Sink {
         Ok(())
     }
 
-    /// Completes the output and makes it durable. Does nothing for a sink in memory.
+    /// Completes the output and makes it durable. Only flushes by default.
     ///
     /// # Errors
     /// The error of writing the rows.
     fn finish(&mut self) -> io::Result<()> {
-        Ok(())
+        self.flush()
     }
 }
 
