@@ -3,7 +3,7 @@
 
 use std::path::Path;
 
-use super::{Begun, Job, JobError, Target, Writing, write_sidecar};
+use super::{Begun, Job, JobError, Target, write_sidecar};
 use crate::files::beside::{journal_of, sidecar_of};
 use crate::files::integrity::{self, OnDamage};
 use crate::files::results::Format;
@@ -74,7 +74,7 @@ impl<'a> Job<'a> {
         write_sidecar(place, &sidecar, false)?;
         let target = Target::Session(Box::new(session), Box::new(sidecar));
         let locks = vec![lock];
-        Ok(Writing { lost: Some(lost), locks, ..self.writing(target, before) }.into())
+        Ok(self.writing(target, before, Some(lost), locks))
     }
 
     /// Ends the job if the sidecar of the results at `place` records complete results.
@@ -141,7 +141,7 @@ impl<'a> Job<'a> {
             let taken = session.take_over(&self.out, &before, sidecar.seconds.unwrap_or_default());
             taken.map_err(|error| JobError::write(session.path(), error, true))?;
         }
-        Ok(Writing { lost: Some(0), locks, ..self.writing(target, before) }.into())
+        Ok(self.writing(target, before, Some(0), locks))
     }
 
     /// Returns the identity of the job's rows.

@@ -122,7 +122,7 @@ impl<'a> Job<'a> {
         let (file, lock) = output::create(&self.out, overwrite)?;
         let Some(lock) = lock else {
             let sink = CsvSink::new(Layout::of(self.plan).names(), file);
-            return Ok(self.writing(Target::Stream(sink), Summary::default()).into());
+            return Ok(self.writing(Target::Stream(sink), Summary::default(), None, Vec::new()));
         };
         let mut locks = vec![lock];
         let refused = |error| JobError::write(&self.out, error, false);
@@ -132,12 +132,12 @@ impl<'a> Job<'a> {
         let has_rows = !disk::is_empty(&self.out) || replacement::has_journal(&self.out).map_err(refused)?;
         if !overwrite || !has_rows {
             let target = self.start_at((&self.out, format), file, false)?;
-            return Ok(Writing { locks, ..self.writing(target, Summary::default()) }.into());
+            return Ok(self.writing(target, Summary::default(), None, locks));
         }
         // The earlier results are closed: on Windows, an open file cannot be replaced on every file system.
         drop(file);
         let target = self.start_beside(format, &mut locks)?;
-        Ok(Writing { locks, ..self.writing(target, Summary::default()) }.into())
+        Ok(self.writing(target, Summary::default(), None, locks))
     }
 
     /// Begins the job with an empty file beside the earlier results. When the file is complete, it gets the name of the
@@ -182,8 +182,8 @@ impl<'a> Job<'a> {
     }
 
     /// Returns the job after the rows that `before` counts.
-    fn writing(&'a self, target: Target, before: Summary) -> Writing<'a> {
-        Writing { job: self, target, before, lost: None, locks: Vec::new(), begun: Instant::now() }
+    fn writing(&'a self, target: Target, before: Summary, lost: Option<u64>, locks: Vec<Lock>) -> Begun<'a> {
+        Begun::Writing(Box::new(Writing { job: self, target, before, lost, locks, begun: Instant::now() }))
     }
 
     /// Gives the complete results at `place` their final name, and removes the files that complete results do not need.
@@ -194,12 +194,6 @@ impl<'a> Job<'a> {
             replacement::commit(&self.out)
         };
         completed.map_err(|error| JobError::write(&self.out, error, true))
-    }
-}
-
-impl<'a> From<Writing<'a>> for Begun<'a> {
-    fn from(writing: Writing<'a>) -> Begun<'a> {
-        Begun::Writing(Box::new(writing))
     }
 }
 
