@@ -69,9 +69,7 @@ fn default_path(plan: &Plan, args: &SweepArgs) -> Result<PathBuf, Failure> {
 
 /// Returns the name of the file for the rows of a shard, such as `grid.2of8.csv` for `grid.csv`.
 fn name_of_shard(whole: &Path, shard: Shard) -> PathBuf {
-    let name = whole.file_name().unwrap_or_default().to_string_lossy();
-    let (stem, ending) = Format::split_ending(&name);
-    whole.with_file_name(format!("{stem}.{}of{}{ending}", shard.number(), shard.of()))
+    Format::with_word(whole, &format!("{}of{}", shard.number(), shard.of()))
 }
 
 #[cfg(test)]

@@ -158,9 +158,7 @@ fn is_rerun(plan: &Plan) -> bool {
 
 /// Returns the name of results with a word before the ending: `sweep.unsettled.csv` for `sweep.csv`.
 fn beside(results: &Path, word: &str) -> String {
-    let name = results.file_name().unwrap_or_default().to_string_lossy();
-    let (stem, ending) = Format::split_ending(&name);
-    shell_word(&results.with_file_name(format!("{stem}.{word}{ending}")).to_string_lossy())
+    shell_word(&Format::with_word(results, word).to_string_lossy())
 }
 
 /// Prints the number of curves and the name of the file with the curves, or of the stream `out`.

@@ -35,13 +35,6 @@ pub(crate) fn all_of(results: &Path) -> [PathBuf; 4] {
     [sidecar_of(results), journal_of(results), part_of(results), lock_of(results)]
 }
 
-/// Returns the path of unfinished results that will replace `results`, such as `rows.new.csv` for `rows.csv`.
-pub(crate) fn replacement_of(results: &Path) -> PathBuf {
-    let name = results.file_name().unwrap_or_default().to_string_lossy();
-    let (stem, ending) = Format::split_ending(&name);
-    results.with_file_name(format!("{stem}.new{ending}"))
-}
-
 fn with_ending(path: &Path, ending: &str) -> PathBuf {
     let mut name = path.as_os_str().to_owned();
     name.push(ending);

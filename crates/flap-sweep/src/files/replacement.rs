@@ -16,7 +16,7 @@ use std::fs;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-use super::beside::{journal_of, part_of, replacement_of, rows_of, sidecar_of};
+use super::beside::{journal_of, part_of, rows_of, sidecar_of};
 use super::results::Format;
 use super::sidecar::Sidecar;
 use super::{disk, journal};
@@ -77,7 +77,7 @@ pub fn to_resume(results: &Path) -> PathBuf {
 /// Returns the path of a replacement. The replacement is in the folder of the rows, also if `results` is a link to the
 /// rows.
 pub(crate) fn of(results: &Path) -> PathBuf {
-    replacement_of(&disk::target(results))
+    Format::with_word(&disk::target(results), "new")
 }
 
 /// Returns true if only the journal of the replacement `new` is left. In this case, the replacement has replaced the

@@ -1,7 +1,7 @@
 //! Formats of result files.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Format of a result file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,6 +59,13 @@ impl Format {
         let found = NAMED.iter().find(|(ending, _)| name.to_ascii_lowercase().ends_with(ending));
         // The endings are ASCII, so they have as many bytes in the name.
         name.split_at(name.len() - found.map_or(0, |(ending, _)| ending.len()))
+    }
+
+    /// Returns a path with a word before the ending of the format: `rows.new.csv` for `rows.csv`.
+    pub fn with_word(path: &Path, word: &str) -> PathBuf {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let (stem, ending) = Format::split_ending(&name);
+        path.with_file_name(format!("{stem}.{word}{ending}"))
     }
 
     fn named(path: &Path) -> Option<Format> {
