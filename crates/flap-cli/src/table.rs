@@ -15,6 +15,11 @@ pub(crate) fn six_digits(number: f64) -> String {
     format!("{number:.5e}").parse().map_or_else(|_| String::new(), text::float)
 }
 
+/// Returns the number with four digits.
+pub(crate) fn four_digits(number: f64) -> String {
+    format!("{number:.3e}").parse().map_or_else(|_| String::new(), text::float)
+}
+
 /// Returns a parameter with its value and unit to six digits, such as `hinge_stiffness = 1.52 uN*m/rad`.
 pub(crate) fn assignment(parameter: &Parameter, value: f64) -> String {
     format!("{} = {}", parameter.name, text::shown(parameter, value))
@@ -175,6 +180,11 @@ pub(crate) fn wrapped(text: &str, indent: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn numbers_with_four_digits() {
+        assert_eq!([12.345_678, -0.001_234_56].map(four_digits), ["12.35", "-0.001235"]);
+    }
 
     #[test]
     fn wide_tables_are_folded() {

@@ -19,7 +19,7 @@ use super::selection::Selection;
 use crate::console;
 use crate::data::columns::{Cells, Table};
 use crate::failure::Failure;
-use crate::table::{self, six_digits};
+use crate::table::{self, four_digits};
 
 /// Largest number of parameters in a picture.
 const MOST: usize = 20;
@@ -136,10 +136,10 @@ fn printed(table: &Table, selection: &Selection, found: &Effects) -> String {
         "change of {}{unit} for one standard deviation of each parameter, from {} designs:\n\n",
         measure.name, found.designs
     );
-    let number = |value: f64| if value.is_nan() { "none".to_owned() } else { six_digits(rounded(value)) };
+    let number = |value: f64| if value.is_nan() { "none".to_owned() } else { four_digits(value) };
     let rows = found.parameters.iter().map(|effect| {
         let column = &table.columns[effect.column];
-        let deviation = six_digits(rounded(effect.deviation));
+        let deviation = four_digits(effect.deviation);
         vec![
             column.name.clone(),
             deviation,
@@ -153,11 +153,6 @@ fn printed(table: &Table, selection: &Selection, found: &Effects) -> String {
     let headings = ["parameter", "standard deviation", "unit", "derivatives", "sample"];
     page += &table::Table::of(&headings, rows.chain([all])).text_within(console::width());
     page
-}
-
-/// Returns a number with four digits.
-fn rounded(value: f64) -> f64 {
-    format!("{value:.3e}").parse().unwrap_or(value)
 }
 
 /// Computes the effects of the parameters that vary among the chosen rows.
@@ -316,10 +311,5 @@ mod tests {
     fn equal_values_are_not_varied() {
         let same = [0.1; 6];
         assert!(!is_varied(&same) && !is_varied(&[1.0, f64::NAN]) && is_varied(&[1.0, 1.0, 1.5]));
-    }
-
-    #[test]
-    fn numbers_are_printed_with_four_digits() {
-        assert_eq!((rounded(12.345_678), rounded(-0.001_234_56)), (12.35, -0.001_235));
     }
 }

@@ -18,7 +18,7 @@ use super::super::point::{self, Chosen, find_parameter};
 use crate::console;
 use crate::failure::Failure;
 use crate::job;
-use crate::table::{Table, six_digits};
+use crate::table::{Table, four_digits, six_digits};
 
 /// Parameter that keeps the motion of the wings unchanged when the body moves.
 const RESPONSE: &str = "body_response";
@@ -166,11 +166,6 @@ pub(super) fn mode_table(model: &LinearModel) -> String {
     }
     let _ = write!(page, "\nModes of the linear model about hover:\n\n{}", modes.text_within(width));
     page
-}
-
-/// Returns the number with four digits.
-fn four_digits(number: f64) -> String {
-    format!("{number:.3e}").parse().map_or_else(|_| String::new(), text::float)
 }
 
 impl From<HoverError> for Failure {
