@@ -84,20 +84,18 @@ impl Failure {
         Failure::system(message).help("replace the file by an undamaged copy")
     }
 
-    /// Returns the failure if `path` is a grid file or a sidecar instead of results; `None` for other names.
-    pub(crate) fn not_results(path: &Path) -> Option<Failure> {
+    /// Returns a failure if `path` is a grid file or a sidecar instead of results.
+    pub(crate) fn unless_results(path: &Path) -> Result<(), Failure> {
         let name = path.to_string_lossy();
         if let Some(results) = name.strip_suffix(".meta.toml") {
             let message = format!("{name} is the sidecar of results, not a file of results");
-            return Some(
-                Failure::usage(message).help(format!("give the file of results instead: {results}")),
-            );
+            return Err(Failure::usage(message).help(format!("give the file of results instead: {results}")));
         }
         if !name.ends_with(".toml") {
-            return None;
+            return Ok(());
         }
         let message = format!("{name} is a grid file, not a file of results");
-        Some(Failure::usage(message).help(format!("`flap sweep {name}` writes its results")))
+        Err(Failure::usage(message).help(format!("`flap sweep {name}` writes its results")))
     }
 
     /// Returns the failure of a job with results at `out`.

@@ -41,7 +41,7 @@ impl Source {
     /// Opens the results and reads the header. If `tells` is true, prints notes and warnings about the results to
     /// stderr.
     pub(crate) fn open(path: &Path, read: &ReadArgs, tells: bool) -> Result<Source, Failure> {
-        Failure::not_results(path).map_or(Ok(()), Err)?;
+        Failure::unless_results(path)?;
         let opened = integrity::open(path, read.on_damage())?;
         job::require_checkpoint(path, &opened)?;
         let Opened { reader, sidecar, notes } = opened;

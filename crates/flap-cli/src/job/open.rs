@@ -65,7 +65,7 @@ pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
 
 /// Opens results for reading, and prints warnings about the results.
 pub(crate) fn open(results: &Path, read: &ReadArgs) -> Result<Opened, Failure> {
-    Failure::not_results(results).map_or(Ok(()), Err)?;
+    Failure::unless_results(results)?;
     let opened = integrity::open(results, read.on_damage())?;
     for note in &opened.notes {
         tell(note);
@@ -106,7 +106,7 @@ pub(crate) fn tell(note: &Note) {
 
 /// Opens results that have a sidecar, and returns the results with the plan in the sidecar.
 pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, Plan, Sidecar), Failure> {
-    Failure::not_results(results).map_or(Ok(()), Err)?;
+    Failure::unless_results(results)?;
     Format::of(results)?;
     let (plan, sidecar) = recorded(results, read.on_damage())?;
     require_own_sidecar(results, &sidecar)?;

@@ -20,7 +20,7 @@ pub(super) fn run(args: &MergeArgs) -> Result<Exit, Failure> {
     let format = if to_stdout { Format::Csv } else { Format::of(&args.out)? };
     let mut inputs = Inputs::new();
     for shard in &args.shards {
-        Failure::not_results(shard).map_or(Ok(()), Err)?;
+        Failure::unless_results(shard)?;
         inputs.add_results("the shard", shard);
     }
     inputs.protect_from_results(&args.out)?;

@@ -10,7 +10,7 @@ use crate::failure::{Exit, Failure};
 use crate::job::{self, Begin};
 
 pub(super) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
-    Failure::not_results(&args.results).map_or(Ok(()), Err)?;
+    Failure::unless_results(&args.results)?;
     Format::of(&args.results)?;
     let on_damage = args.read.on_damage();
     let results = job::to_resume(&args.results);
