@@ -62,12 +62,11 @@ impl Best {
     ) -> Result<Option<Best>, Failure> {
         let numbers = table.numbers(column)?;
         let mut ranked: Vec<usize> = rows.iter().copied().filter(|&row| !numbers[row].is_nan()).collect();
-        let Some(&first) = ranked.first() else { return Ok(None) };
         ranked.sort_by(|&a, &b| match aim {
             Aim::Max => numbers[b].total_cmp(&numbers[a]),
             Aim::Min => numbers[a].total_cmp(&numbers[b]),
         });
-        let row = ranked.first().copied().unwrap_or(first);
+        let Some(&row) = ranked.first() else { return Ok(None) };
         ranked.truncate(ranked.len().div_ceil(10));
         let described = &table.columns[column];
         Ok(Some(Best {
