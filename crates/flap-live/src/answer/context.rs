@@ -23,9 +23,11 @@ impl AnswerContext<'_> {
     }
 }
 
-/// Returns the reason why a run returned no rows.
-pub(super) fn failed(error: &RunError) -> Refused {
-    Refused::Fault(error.to_string())
+/// Converts the reason why a run returned no rows.
+impl From<RunError> for Refused {
+    fn from(error: RunError) -> Refused {
+        Refused::Fault(error.to_string())
+    }
 }
 
 /// Returns the reason why a motion could not be computed.

@@ -2,7 +2,7 @@
 
 use flap_sweep::run::{self, RowWriter, Summary};
 
-use super::context::{AnswerContext, failed};
+use super::context::AnswerContext;
 use crate::request::{FamilyRequest, Refused};
 use crate::rows::Rows;
 
@@ -11,13 +11,12 @@ pub(crate) fn family(context: &AnswerContext<'_>, request: &FamilyRequest) -> Re
     let FamilyRequest { design, x, by } = request;
     let plan = context.opened.plan_of(&context.opened.grid(design, Some(x), by.as_ref())?)?;
     let mut rows = Rows::of(&plan);
-    let mut output =
-        RowWriter::begin(&plan, Summary::default(), &mut rows).map_err(|error| failed(&error))?;
+    let mut output = RowWriter::begin(&plan, Summary::default(), &mut rows)?;
     let mut run = run::rows(&plan, &context.options, 0);
-    while let Some(batch) = run.next_batch().map_err(|error| failed(&error))? {
+    while let Some(batch) = run.next_batch()? {
         context.check_current()?;
         for row in &batch {
-            output.write(row).map_err(|error| failed(&error))?;
+            output.write(row)?;
         }
     }
     Ok(rows)

@@ -8,7 +8,7 @@ use flap_sweep::table::layout::Layout;
 
 use serde::Serialize;
 
-use super::context::{AnswerContext, failed};
+use super::context::AnswerContext;
 use crate::request::{HysteresisRequest, MOST_ROWS, Refused};
 use crate::rows::Rows;
 
@@ -45,13 +45,12 @@ pub(crate) fn hysteresis(
         Responses::of(&plan).ok_or_else(|| Refused::Fault("no parameter is followed".to_owned()))?;
     let layout = Layout::of(&plan);
     let (mut rows, mut states) = (Rows::of(&plan), Vec::new());
-    let mut output =
-        RowWriter::begin(&plan, Summary::default(), &mut rows).map_err(|error| failed(&error))?;
+    let mut output = RowWriter::begin(&plan, Summary::default(), &mut rows)?;
     let mut run = responses.curves(&context.options, 0);
-    while let Some(batch) = run.next_batch().map_err(|error| failed(&error))? {
+    while let Some(batch) = run.next_batch()? {
         context.check_current()?;
         for outcome in &batch {
-            output.write_curve(outcome).map_err(|error| failed(&error))?;
+            output.write_curve(outcome)?;
             if let Outcome::Ran(curve) = outcome {
                 states.extend(curve.rows(&plan, &layout).map(|(_, row)| row.state.clone()));
             }
