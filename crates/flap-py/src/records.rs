@@ -16,8 +16,6 @@ pub(crate) struct Wave {
     pub(crate) samples: Samples,
     /// True for a stroke (rad), false for a waveform of unit amplitude.
     pub(crate) is_stroke: bool,
-    /// True if the record is followed once, from rest.
-    pub(crate) once: bool,
 }
 
 impl Wave {
@@ -42,7 +40,7 @@ impl Wave {
         };
         let repeat = if once { Repeat::Once } else { Repeat::Periodic };
         let samples = samples(&read(name, source)?, &quantity, repeat)?;
-        Ok(Some(Wave { samples, is_stroke: stroke.is_some(), once }))
+        Ok(Some(Wave { samples, is_stroke: stroke.is_some() }))
     }
 }
 

@@ -69,7 +69,7 @@ pub(crate) fn trajectory<'py>(
     let chosen = Chosen::new(design, keywords, point, wave.as_ref())?.for_motion(py)?;
     let (cycles, samples) = (convert::count("cycles", cycles)?, convert::count("samples", samples)?);
     // A record that is followed once has only one period.
-    let cycles = if wave.is_some_and(|wave| wave.once) { 1 } else { cycles };
+    let cycles = if once { 1 } else { cycles };
     let all = u64::from(cycles) * u64::from(samples);
     if all > SAMPLES_MAX {
         let message =
