@@ -171,30 +171,21 @@ impl Panel {
 
 /// Adds the ticks of an axis of this length.
 fn with_ticks(layout: Layout, axis: &Axis, across: bool, length: f64) -> Layout {
-    if axis.log {
-        let format = TickFormat::Custom(Arc::new(super::label::short));
-        return if across {
-            layout.with_log_x().with_x_tick_format(format)
-        } else {
-            layout.with_log_y().with_y_tick_format(format)
-        };
-    }
-    if !axis.words.is_empty() {
-        let words: Vec<String> = axis.words.iter().map(|word| plain(word)).collect();
-        let format = TickFormat::Custom(Arc::new(move |value| Axis::word(&words, value)));
-        return if across {
-            layout.with_x_tick_step(1.0).with_x_tick_format(format)
-        } else {
-            layout.with_y_tick_step(1.0).with_y_tick_format(format)
-        };
-    }
     let range = axis.range;
-    let step = step(range, across, length);
-    let format = TickFormat::Custom(Arc::new(move |value| scale::tick(value, range, step)));
-    if across {
-        layout.with_x_tick_step(step).with_x_tick_format(format)
+    let step = if axis.log || !axis.words.is_empty() { 1.0 } else { step(range, across, length) };
+    let format = if axis.log {
+        TickFormat::Custom(Arc::new(super::label::short))
+    } else if axis.words.is_empty() {
+        TickFormat::Custom(Arc::new(move |value| scale::tick(value, range, step)))
     } else {
-        layout.with_y_tick_step(step).with_y_tick_format(format)
+        let words: Vec<String> = axis.words.iter().map(|word| plain(word)).collect();
+        TickFormat::Custom(Arc::new(move |value| Axis::word(&words, value)))
+    };
+    match (axis.log, across) {
+        (true, true) => layout.with_log_x().with_x_tick_format(format),
+        (true, false) => layout.with_log_y().with_y_tick_format(format),
+        (false, true) => layout.with_x_tick_step(step).with_x_tick_format(format),
+        (false, false) => layout.with_y_tick_step(step).with_y_tick_format(format),
     }
 }
 
