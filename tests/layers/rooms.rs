@@ -1,6 +1,5 @@
 //! The rooms of each crate: folders and files in `src`. A room uses only the rooms before it, and no files use each
 //! other in a cycle.
-//! each other in a cycle.
 
 use crate::house::House;
 use crate::source::{SourceFile, source_files};

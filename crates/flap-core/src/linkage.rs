@@ -267,7 +267,7 @@ fn scale<R: Real>(k: R, a: [R; 2]) -> [R; 2] {
     [k * a[0], k * a[1]]
 }
 
-/// Returns k Returns a + b.
+/// Returns k a + b.
 #[inline(always)]
 fn scale_add<R: Real>(k: R, a: [R; 2], b: [R; 2]) -> [R; 2] {
     [k.mul_add(a[0], b[0]), k.mul_add(a[1], b[1])]
