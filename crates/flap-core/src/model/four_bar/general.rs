@@ -303,8 +303,10 @@ pub(super) fn impulse<R: Lanes>(
             let high = first * last.chordwise;
             let grazes = high.abs().lt(last.speed * GRAZING);
             let high = R::select(grazes, h.lit(0.0).copysign(low), high);
-            let part_of = Part { begin: part as f64 / PARTS as f64, ends: [low, high] };
-            let [from, to] = part_of.reversed(
+            let start = part as f64 / PARTS as f64;
+            let [from, to] = reversed(
+                start,
+                [low, high],
                 #[inline(always)]
                 |theta| first * motion_within(c, attempt, &state, theta).flow(&strip).chordwise,
             );
@@ -337,43 +339,35 @@ pub(super) fn impulse<R: Lanes>(
 /// Number of parts into which a step is divided, so that the flow past a strip reverses at most once in each part.
 const PARTS: usize = 4;
 
-/// A part of a step.
-struct Part<R> {
-    /// Beginning of the part, as a fraction of the step.
-    begin: f64,
-    /// Components of the flow in its initial direction, at both ends of the part.
-    ends: [R; 2],
-}
-
-impl<R: Lanes> Part<R> {
-    /// Returns the interval of the step, in fractions of the step, in which the flow is reversed. The interval is empty
-    /// if the flow is not reversed. `value` returns the component of the flow in its initial direction.
-    #[inline(always)]
-    fn reversed(&self, value: impl Fn(R) -> R) -> [R; 2] {
-        let [mut f_low, mut f_high] = self.ends;
-        let (zero, one) = (f_low.lit(0.0), f_low.lit(1.0));
-        let (begin, end) = (f_low.lit(self.begin), f_low.lit(self.begin + 1.0 / PARTS as f64));
-        let negative = |number: R| one.copysign(number).lt(zero);
-        let (reversed, returns) = (negative(f_low), !negative(f_high));
-        let turns = (reversed & returns) | (!reversed & !returns);
-        let mut turn = end;
-        if R::bits(turns) != 0 {
-            let (mut low, mut high) = (begin, end);
-            let mut kept = zero;
-            for _ in 0..SEARCH {
-                let span = R::select(turns, f_low - f_high, one);
-                turn = R::select(turns, low + (high - low) * (f_low / span), end);
-                let found = value(turn);
-                let is_high = (negative(found) & !reversed) | (!negative(found) & reversed);
-                // An end that is kept twice in a row counts half.
-                let (low_kept, high_kept) = (zero.lt(kept), kept.lt(zero));
-                f_low = R::select(is_high, R::select(low_kept, f_low * 0.5, f_low), found);
-                f_high = R::select(is_high, found, R::select(high_kept, f_high * 0.5, f_high));
-                (low, high) = (R::select(is_high, low, turn), R::select(is_high, turn, high));
-                kept = R::select(is_high, one, -one);
-            }
+/// Returns the interval of a part of a step in which the flow is reversed, in fractions of the step. The interval is empty
+/// if the flow is not reversed.
+///
+/// The part begins at the fraction `begin` of the step. `f_low` and `f_high` are the components of the flow in its
+/// initial direction at both ends of the part. `value` returns this component at a fraction of the step.
+#[inline(always)]
+fn reversed<R: Lanes>(begin: f64, [mut f_low, mut f_high]: [R; 2], value: impl Fn(R) -> R) -> [R; 2] {
+    let (zero, one) = (f_low.lit(0.0), f_low.lit(1.0));
+    let (begin, end) = (f_low.lit(begin), f_low.lit(begin + 1.0 / PARTS as f64));
+    let negative = |number: R| one.copysign(number).lt(zero);
+    let (reversed, returns) = (negative(f_low), !negative(f_high));
+    let turns = (reversed & returns) | (!reversed & !returns);
+    let mut turn = end;
+    if R::bits(turns) != 0 {
+        let (mut low, mut high) = (begin, end);
+        let mut kept = zero;
+        for _ in 0..SEARCH {
+            let span = R::select(turns, f_low - f_high, one);
+            turn = R::select(turns, low + (high - low) * (f_low / span), end);
+            let found = value(turn);
+            let is_high = (negative(found) & !reversed) | (!negative(found) & reversed);
+            // An end that is kept twice in a row counts half.
+            let (low_kept, high_kept) = (zero.lt(kept), kept.lt(zero));
+            f_low = R::select(is_high, R::select(low_kept, f_low * 0.5, f_low), found);
+            f_high = R::select(is_high, found, R::select(high_kept, f_high * 0.5, f_high));
+            (low, high) = (R::select(is_high, low, turn), R::select(is_high, turn, high));
+            kept = R::select(is_high, one, -one);
         }
-        let from = R::select(reversed, begin, R::select(turns, turn, end));
-        [from, R::select(reversed & turns, turn, end)]
     }
+    let from = R::select(reversed, begin, R::select(turns, turn, end));
+    [from, R::select(reversed & turns, turn, end)]
 }
