@@ -8,7 +8,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 use super::chord::{BLADES, blades, elements};
 use super::params::{self, CentreOfPressure, FlowDirection, LiftSign, Params};
 use crate::aero::{AddedMass, Circulation, Harmonics, RotationalForce, Strips, sum};
-use crate::body::BodyMotion;
+use crate::body::{BodyMotion, BodyTerms};
 use crate::drive::DriveConstants;
 use crate::model::stroke_and_pitch::inertias_apart;
 use crate::parameter::Invalid;
@@ -258,6 +258,35 @@ impl Constants<f64> {
             moving: BodyMotion::REST,
         };
         Invalid::unless_finite(constants)?.checked()
+    }
+
+    /// Returns the constants, if the equations contain the given `terms` of body motion.
+    ///
+    /// # Errors
+    /// Returns an error if `flow_direction` is "uniform", `centre_of_pressure` is "literal" or `added_mass` is
+    /// "lagrangian".
+    pub(super) fn with_motion(&self, p: &Params, terms: BodyTerms) -> Result<Constants<f64>, Invalid> {
+        if terms == BodyTerms::None {
+            return Ok(*self);
+        }
+        if p.flow_direction == FlowDirection::Uniform {
+            return Err(Invalid::new(
+                "flow_direction = \"uniform\" has no meaning on a moving body: set it to \"blade\"",
+            ));
+        }
+        if p.centre_of_pressure == CentreOfPressure::Literal {
+            return Err(Invalid::new(
+                "centre_of_pressure = \"literal\" has no meaning on a moving body: set it to \"folded\" or \"directional\"",
+            ));
+        }
+        if p.added_mass == params::AddedMass::Lagrangian {
+            return Err(Invalid::new(
+                "added_mass = \"lagrangian\" has no equations for a moving body: set it to \"paper\"",
+            ));
+        }
+        let f0 = FRAC_PI_4 * p.air_density * sum(&elements(p), |_, c| c * c);
+        let added = AddedMass { f0, ..self.added };
+        Invalid::unless_finite(Constants { moving: p.body.motion(), added, ..*self })
     }
 
     fn checked(self) -> Result<Constants<f64>, Invalid> {

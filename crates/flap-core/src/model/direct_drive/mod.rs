@@ -8,7 +8,6 @@ mod chord;
 mod constants;
 mod general;
 mod model;
-mod motion;
 mod params;
 mod rhs;
 mod variant;

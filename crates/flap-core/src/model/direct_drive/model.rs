@@ -2,7 +2,6 @@
 
 use super::constants::Constants;
 use super::general;
-use super::motion::with_motion;
 use super::params::{FlowDirection, Params};
 use super::rhs::{added_mass, aerodynamics, balance, current, lift, load, mean_velocity};
 use super::variant::DirectDrive;
@@ -236,7 +235,7 @@ impl Model<4> for DirectDrive {
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
-        let constants = with_motion(&Constants::derive(&params)?, &params, self.terms.body)?;
+        let constants = Constants::derive(&params)?.with_motion(&params, self.terms.body)?;
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
     }
 
