@@ -70,7 +70,8 @@ fn translational(
 }
 
 /// Returns the load of a model without and with the terms, at stroke and pitch with their rates and accelerations.
-fn loads<M: Motions<4> + Default>(
+fn loads<M: Motions<4>>(
+    model: &M,
     values: &[f64],
     up: f64,
     ([phi, psi, phi_dot, psi_dot], [phi_ddot, psi_ddot]): ([f64; 4], [f64; 2]),
@@ -84,7 +85,7 @@ fn loads<M: Motions<4> + Default>(
     }
     let pitch = [psi, psi_dot, psi_ddot].map(|value| f64::from(M::PITCH_SIGN) * value);
     [without, with].map(|values| {
-        let model = M::default().variant(&values);
+        let model = model.variant(&values);
         let c = model.start(&values).unwrap().constants;
         let (y, dy, input) = M::placed(&c, [phi, phi_dot, phi_ddot], pitch);
         let side = model.switch(&c, &y, &dy)[0].signum();
@@ -94,7 +95,8 @@ fn loads<M: Motions<4> + Default>(
 
 /// Asserts that the terms change the loads and the sums over strips equally, at these velocities of the body. `law`
 /// returns drag coefficient, lift coefficient and centre of pressure at an attack angle, with `share` times the terms.
-fn assert_terms<M: Motions<4> + Default>(
+fn assert_terms<M: Motions<4>>(
+    model: &M,
     values: &[f64],
     (strips, density): (&[Strip], f64),
     law: impl Fn(f64, f64) -> [f64; 3],
@@ -102,7 +104,7 @@ fn assert_terms<M: Motions<4> + Default>(
 ) {
     for state in STATES {
         for &up in velocities {
-            let [without, with] = loads::<M>(values, up, state);
+            let [without, with] = loads(model, values, up, state);
             let sum = |share: f64| translational(strips, density, |attack| law(attack, share), up, state.0);
             let (before, after) = (sum(0.0), sum(1.0));
             let expected = Load {
@@ -138,11 +140,11 @@ fn the_load_of_the_bimorph_has_the_terms() {
     };
     let radius = p.wing_radius_2 * p.wing_length;
     let strip = [p.wing_area, radius, p.pressure_radius, 0.0, p.wing_area / p.wing_length];
-    assert_terms::<Bimorph>(&p.to_values(), (&[strip], p.air_density), law, &[0.0]);
+    assert_terms(&Bimorph::SINE, &p.to_values(), (&[strip], p.air_density), law, &[0.0]);
     // On a moving body, the wing is cut into strips, which are exact at rest.
     for state in STATES {
-        let [_, rest] = loads::<Bimorph>(&p.to_values(), 0.0, state);
-        let [_, moving] = loads::<Bimorph>(&p.to_values(), 1e-13, state);
+        let [_, rest] = loads(&Bimorph::SINE, &p.to_values(), 0.0, state);
+        let [_, moving] = loads(&Bimorph::SINE, &p.to_values(), 1e-13, state);
         for (moving, rest) in components(&moving).into_iter().zip(components(&rest)) {
             assert_close(moving, rest, 1e-10, "load");
         }
@@ -172,7 +174,7 @@ fn the_load_of_blade_elements_has_the_terms() {
         let more = terms(attack).map(|term| share * term);
         [drag + more[0], lift + more[1], p.pressure_slope * attack + p.pressure_offset + more[2]]
     };
-    assert_terms::<DirectDrive>(&p.to_values(), (&strips, p.air_density), law, &[0.0, 0.8, -3.0]);
+    assert_terms(&DirectDrive::SINE, &p.to_values(), (&strips, p.air_density), law, &[0.0, 0.8, -3.0]);
 }
 
 #[test]
@@ -192,5 +194,5 @@ fn the_load_of_the_strips_of_the_four_bar_has_the_terms() {
         let lift = lift * (FRAC_PI_2 - attack).signum();
         [drag + more[0], lift + more[1], p.pressure_slope * attack + p.pressure_offset + more[2]]
     };
-    assert_terms::<FourBar>(&p.to_values(), (&strips, p.air_density), law, &[0.0, 0.8, -3.0]);
+    assert_terms(&FourBar::SINE, &p.to_values(), (&strips, p.air_density), law, &[0.0, 0.8, -3.0]);
 }

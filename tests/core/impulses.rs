@@ -48,18 +48,18 @@ fn an_impulse_moves_the_pitch_as_a_drive_does() {
             let volts = |value| Wave::with_rate(value, 0.0);
             let (y, rest, driven) = match model.name() {
                 "direct-drive" => {
-                    let (c, y, rest) = released(&DirectDrive::default(), &values);
-                    (y, rest, DirectDrive::default().rhs(&c, &volts(30.0), 1.0, &[0.0; 4]))
+                    let (c, y, rest) = released(&DirectDrive::SINE, &values);
+                    (y, rest, DirectDrive::SINE.rhs(&c, &volts(30.0), 1.0, &[0.0; 4]))
                 }
                 "four-bar" => {
-                    let (c, y, rest) = released(&FourBar::default(), &values);
+                    let (c, y, rest) = released(&FourBar::SINE, &values);
                     let drive = volts(c.actuator.rest_voltage + 30.0);
-                    (y, rest, FourBar::default().rhs(&c, &drive, 1.0, &[0.0; 4]))
+                    (y, rest, FourBar::SINE.rhs(&c, &drive, 1.0, &[0.0; 4]))
                 }
                 "bimorph" => {
-                    let (c, y, rest) = released(&Bimorph::default(), &values);
+                    let (c, y, rest) = released(&Bimorph::SINE, &values);
                     let plates = plates_under(&c, [volts(120.0), volts(80.0)]);
-                    (y, rest, Bimorph::default().rhs(&c, &plates, 1.0, &[0.0; 4]))
+                    (y, rest, Bimorph::SINE.rhs(&c, &plates, 1.0, &[0.0; 4]))
                 }
                 other => panic!("no derivative of {other}"),
             };
@@ -81,9 +81,9 @@ fn an_impulse_moves_the_pitch_as_a_drive_does() {
 fn unequal_plates_rest_before_an_impulse() {
     for (offset, ratio) in [(0.0, 1.0), (40.0, 1.0), (0.0, 0.8), (-30.0, 1.3)] {
         let values = values("jafferis2016", &[("drive_offset", offset), ("plate_ratio", ratio)]);
-        let (c, _, rest) = released(&Bimorph::default(), &values);
+        let (c, _, rest) = released(&Bimorph::SINE, &values);
         let plates = plates_under(&c, [120.0, 80.0].map(|volts| Wave::with_rate(volts, 0.0)));
-        let driven = Bimorph::default().rhs(&c, &plates, 1.0, &[0.0; 4]);
+        let driven = Bimorph::SINE.rhs(&c, &plates, 1.0, &[0.0; 4]);
         assert!(rest[1].abs() < 1e-12 * driven[1].abs(), "{offset}, {ratio}: {rest:?}, {driven:?}");
     }
 }
@@ -115,15 +115,15 @@ fn modes_are_those_of_the_equations() {
     }
     let coupled = [("added_mass_factor", 1.0), ("added_inertia_stroke", 0.0), ("force_strain_slope", 0.0)];
     for (name, set) in [("jafferis2016", &coupled[2..]), ("jafferis2016", &coupled)] {
-        let [found, expected] = frequencies(&Bimorph::default(), &values(name, set), [[0, 2], [1, 3]]);
+        let [found, expected] = frequencies(&Bimorph::SINE, &values(name, set), [[0, 2], [1, 3]]);
         (0..2).for_each(|i| assert_near(found[i], expected[i], 1e-4 * expected[i], name));
     }
     for name in ["ozaki2018-large", "ozaki2018-small"] {
-        let [found, expected] = frequencies(&DirectDrive::default(), &values(name, &[]), [[0, 1], [2, 3]]);
+        let [found, expected] = frequencies(&DirectDrive::SINE, &values(name, &[]), [[0, 1], [2, 3]]);
         (0..2).for_each(|i| assert_near(found[i], expected[i], 1e-4 * expected[i], name));
     }
     for name in ["arabagi2013-75hz", "arabagi2013-30hz"] {
-        let [found, expected] = frequencies(&FourBar::default(), &values(name, &[]), [[0, 1], [2, 3]]);
+        let [found, expected] = frequencies(&FourBar::SINE, &values(name, &[]), [[0, 1], [2, 3]]);
         (0..2).for_each(|i| assert_near(found[i], expected[i], 1e-4 * expected[i], name));
     }
 }

@@ -94,7 +94,7 @@ fn the_load_of_the_four_bar_is_that_of_its_strips() {
         let values = values("arabagi2013-75hz", &[("arms", arms), ("strips", 32.0)]);
         let p = four_bar::Params::from_values(&values);
         let side = |_: &_, y: &[f64; 4], _: &[f64; 4]| y[1].tan().signum();
-        let (_, at) = instants(&FourBar::default(), &values, side);
+        let (_, at) = instants(&FourBar::SINE, &values, side);
         let sizes = sizes(&at);
         let mut compared = 0;
         for (i, at) in at.iter().enumerate() {
@@ -166,7 +166,7 @@ fn the_load_of_the_direct_drive_is_that_of_its_strips() {
     let mid = p.wing_length * 0.5 + offset;
     let mean_velocity = |y: &[f64; 4]| mid * y[2] - 0.5 * chord(0.5) * y[3] * y[1].cos();
     let side = |_: &_, y: &[f64; 4], _: &[f64; 4]| mean_velocity(y).signum();
-    let (_, at) = instants(&DirectDrive::default(), &values, side);
+    let (_, at) = instants(&DirectDrive::SINE, &values, side);
     let sizes = sizes(&at);
     // The mean chord and the span make the lift coefficient.
     let mean_chord = 9e-3 * 0.8;
@@ -207,7 +207,7 @@ fn the_load_of_the_direct_drive_is_that_of_its_strips() {
 fn the_load_of_the_bimorph_does_its_work() {
     let values = values("jafferis2016", &[]);
     let p = bimorph::Params::from_values(&values);
-    let (_, at) = instants(&Bimorph::default(), &values, |_, _, _| 1.0);
+    let (_, at) = instants(&Bimorph::SINE, &values, |_, _, _| 1.0);
     let sizes = sizes(&at);
     for at in &at {
         let [_, x_dot, psi, psi_dot] = at.y;

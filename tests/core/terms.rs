@@ -347,7 +347,7 @@ fn a_constant_transmission_is_the_limit() {
             assert_close(b[i], a[i], 1e-14, "state");
         }
     }
-    let growing = Bimorph::default().variant(&with_growth(1e9).to_values());
+    let growing = Bimorph::SINE.variant(&with_growth(1e9).to_values());
     assert_eq!(growing.law, Law::Square);
     let row = |growth| {
         Design::new("jafferis2016").with(&[("transmission_growth", growth)]).measures([

@@ -84,10 +84,9 @@ impl BodyParameters {
 }
 
 /// Terms that the motion of the body adds to the equations of a wing.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BodyTerms {
     /// The body is at rest.
-    #[default]
     None,
     /// The motion of the body is in the loads only.
     Loads,

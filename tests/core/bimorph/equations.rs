@@ -49,7 +49,7 @@ fn cases() -> Vec<Case> {
     table("bimorph/rhs_vectors.csv")
         .into_iter()
         .map(|record| Case {
-            model: Bimorph::default(),
+            model: Bimorph::SINE,
             constants: constants(),
             voltages: [("V1_V", "dV1_V_per_s"), ("V2_V", "dV2_V_per_s")]
                 .map(|(value, rate)| Wave::with_rate(record.number(value), record.number(rate))),
@@ -66,7 +66,7 @@ fn accelerations_forces_and_currents_equal_the_reference() {
     let mut largest = (0.0, String::new());
     for Case { voltages, y, record, .. } in cases() {
         let plates = plates_under(&c, voltages);
-        let dy = Bimorph::default().rhs(&c, &plates, 1.0, &y);
+        let dy = Bimorph::SINE.rhs(&c, &plates, 1.0, &y);
         let [_, x_ddot, _, psi_ddot] = dy;
         let signals = probe(&c, &plates).signals(&y, &dy);
         let [q_1, q_2] = charges(&c, &plates, y[0]);
@@ -136,7 +136,7 @@ fn voltages_are_those_of_eq_7() {
     let c = constants();
     for i in 0..50 {
         let t = f64::from(i) / 50.0 / 120.0;
-        let [p_1, p_2] = Bimorph::default().input(&c, t);
+        let [p_1, p_2] = Bimorph::SINE.input(&c, t);
         let (sin, cos) = (2.0 * std::f64::consts::PI * 120.0 * t).sin_cos();
         assert!((p_1.voltage.value - 100.0 * (1.0 - sin)).abs() < 1e-11);
         assert!((p_1.voltage.value + p_2.voltage.value - 200.0).abs() < 1e-11);
@@ -163,7 +163,7 @@ fn the_drive_acts_through_its_voltages() {
         Params { drive_voltage_pp: 100.0, stress_field: 50e6, ..p },
     ];
     for p in designs {
-        let model = Bimorph::default().variant(&p.to_values());
+        let model = Bimorph::SINE.variant(&p.to_values());
         let c = Constants::derive(&p).unwrap();
         let (chirp, chirped) = model.chirped(&c, 40.0, 5.0);
         let (still, held, _) = model.released(&c, 1.0);
@@ -242,7 +242,7 @@ fn harmonics_widen_the_voltages() {
 fn a_bias_and_unequal_plates_change_voltages_and_forces() {
     let p = Params { drive_offset: 40.0, plate_ratio: 0.8, drive_voltage_pp: 200.0, ..params("T1") };
     let c = Constants::derive(&p).unwrap();
-    let [first, second] = Bimorph::default().input(&c, 0.0);
+    let [first, second] = Bimorph::SINE.input(&c, 0.0);
     assert_close(first.voltage.value, 120.0, 1e-14, "first voltage");
     assert_close(second.voltage.value, 80.0, 1e-14, "second voltage");
     let [first, second] = plates_under(&c, [Wave::with_rate(90.0, 0.0); 2]);
@@ -258,7 +258,7 @@ fn losses_of_the_hinge_are_moments_times_rates() {
     let damped = Constants::derive(&p).unwrap();
     // The smallest further term selects the equations with all terms.
     let general = Params { circulation_factor: 1e-300, ..p };
-    let model = Bimorph::default().variant(&general.to_values());
+    let model = Bimorph::SINE.variant(&general.to_values());
     for Case { voltages, y, record, .. } in cases().into_iter().filter(|case| case.y[3] != 0.0) {
         let plates = plates_under(&damped, voltages);
         let plain = probe(&damped, &plates).signals(&y, &[0.0; 4]);

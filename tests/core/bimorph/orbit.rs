@@ -15,7 +15,7 @@ use crate::span::tolerances;
 
 /// The run of a point from the state `y`.
 fn start(p: &Params, y: [f64; 4]) -> Start<<Bimorph as flap_core::ode::Ode<4>>::Constants<f64>, 4> {
-    Start { y, ..Bimorph::default().start(&p.to_values()).unwrap() }
+    Start { y, ..Bimorph::SINE.start(&p.to_values()).unwrap() }
 }
 
 /// The state after some drive periods from `y`.
@@ -26,7 +26,7 @@ pub(super) fn march(p: &Params, y: [f64; 4], cycles: u32, rtol: f64) -> [f64; 4]
         return end;
     }
     let outcome = solve::<_, f64, 4>(
-        &Bimorph::default().variant(&p.to_values()),
+        &Bimorph::SINE.variant(&p.to_values()),
         &tolerances(rtol),
         &start,
         |_, _| {},
@@ -43,7 +43,7 @@ pub(super) fn march(p: &Params, y: [f64; 4], cycles: u32, rtol: f64) -> [f64; 4]
 /// The signals over one drive period from `y`, and the number of evaluations of the right-hand side in this period.
 pub(super) fn cycle(p: &Params, y: [f64; 4], rtol: f64) -> (Signals<SignalCycle>, u64) {
     let start = start(p, y);
-    let model = Bimorph::default().variant(&p.to_values());
+    let model = Bimorph::SINE.variant(&p.to_values());
     let observer = cycle::SignalObserver::all(&model);
     let mut totals = Sums::<Signals, f64>::fill(0.0, &Observer::<Bimorph, 4>::nothing(&observer));
     let outcome = solve::<_, f64, 4>(

@@ -109,7 +109,7 @@ fn coefficients_of_figure_3_and_table_1() {
     let still = plates_under(&figure_3, [Wave::with_rate(0.0, 0.0); 2]);
     for degrees in [0.0, 30.0, 70.0, 90.0_f64] {
         let (sin_2psi, cos_2psi) = (2.0 * degrees).to_radians().sin_cos();
-        let probe = Probe { model: &Bimorph::default(), constants: &figure_3, input: &still, side: 1.0 };
+        let probe = Probe { model: &Bimorph::SINE, constants: &figure_3, input: &still, side: 1.0 };
         let drag = probe.signals(&[0.0, 1.0, degrees.to_radians(), 0.0], &[0.0; 4]).drag;
         assert_close(drag / figure_3.force, FIG_3.drag(cos_2psi), 1e-14, "drag");
         assert_eq!(of(&figure_3).lift(sin_2psi), FIG_3.lift(sin_2psi));

@@ -173,7 +173,7 @@ fn settled_motions_are_antisymmetric() {
 }
 
 fn model_scale(values: &[f64]) -> [f64; 4] {
-    Bimorph::default().start(values).unwrap().scale
+    Bimorph::SINE.start(values).unwrap().scale
 }
 
 /// The place at which the tip rests under constant voltages: K(x) x = F₁ − F₂.
@@ -182,7 +182,7 @@ pub(super) fn static_tip(c: &Constants<f64>, voltages: [f64; 2]) -> f64 {
     let (mut low, mut high) = (-2e-3, 2e-3);
     for _ in 0..80 {
         let x = 0.5 * (low + high);
-        let Signals { force_1, force_2, .. } = signals(&Bimorph::default(), c, &plates, &[x, 0.0, 0.0, 0.0]);
+        let Signals { force_1, force_2, .. } = signals(&Bimorph::SINE, c, &plates, &[x, 0.0, 0.0, 0.0]);
         if (secant_stiffness(c, x) + c.k_t) * x < force_1 - force_2 { low = x } else { high = x }
     }
     0.5 * (low + high)
@@ -212,13 +212,10 @@ fn a_tip_in_vacuum_keeps_its_energy() {
     for set in ["T1", "T3", "RD"] {
         let p = Params { air_density: 0.0, drive_voltage_pp: 0.0, actuator_mass: 3e-6, ..params(set) };
         let c = Constants::derive(&p).unwrap();
-        let start = Start {
-            span: 0.05,
-            y: [3e-4, 0.2, 0.5, -80.0],
-            ..Bimorph::default().start(&p.to_values()).unwrap()
-        };
+        let start =
+            Start { span: 0.05, y: [3e-4, 0.2, 0.5, -80.0], ..Bimorph::SINE.start(&p.to_values()).unwrap() };
         let total = |y: &[f64; 4]| tip_energy(&c, y);
-        span::assert_conserved(&Bimorph::default(), &tolerances(1e-10), &start, 1e-8, total, set);
+        span::assert_conserved(&Bimorph::SINE, &tolerances(1e-10), &start, 1e-8, total, set);
     }
 }
 
@@ -230,9 +227,8 @@ fn small_motions_repeat_with_their_natural_frequencies() {
         let c = Constants::derive(&p).unwrap();
         let modes = modes::<Bimorph>(&c);
         for (frequency, y) in [(modes[0], [1e-8, 0.0, 0.0, 0.0]), (modes[1], [0.0, 0.0, 1e-3, 0.0])] {
-            let start =
-                Start { y, span: 1.0 / frequency, ..Bimorph::default().start(&p.to_values()).unwrap() };
-            let end = span::end(&Bimorph::default(), &tolerances(1e-11), &start);
+            let start = Start { y, span: 1.0 / frequency, ..Bimorph::SINE.start(&p.to_values()).unwrap() };
+            let end = span::end(&Bimorph::SINE, &tolerances(1e-11), &start);
             let i = if y[0] > 0.0 { 0 } else { 2 };
             assert_close(end[i], y[i], 1e-6, set);
             assert!(end[i + 1].abs() < 1e-4 * y[i] * frequency, "{set}: {end:?}");

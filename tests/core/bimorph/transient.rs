@@ -48,7 +48,7 @@ fn the_frequency_sweep_of_eq_7_equals_the_reference() {
     let records = table("bimorph/transient_cases.csv");
     let record = records.iter().find(|record| record.text("set") == "T1-chirp").unwrap();
     let p = Params { drive_voltage_pp: record.number("Vpp_V"), ..params("T1") };
-    let (model, constants) = Bimorph::default().chirped(&Constants::derive(&p).unwrap(), 1.0, 15.0);
+    let (model, constants) = Bimorph::SINE.chirped(&Constants::derive(&p).unwrap(), 1.0, 15.0);
     let start = Start::new(constants, [0.0; 4], record.number("t_end_s"), [3e-5, 0.025, 0.3, 250.0]);
     let end = span::end(&model, &tolerances(1e-10), &start);
     let error = distance(&end, &end_state(record));

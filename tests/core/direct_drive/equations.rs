@@ -28,7 +28,7 @@ fn cases_with(flow: FlowDirection) -> Vec<Case> {
     table("direct-drive/rhs_vectors.csv")
         .into_iter()
         .map(|record| Case {
-            model: DirectDrive { flow, ..DirectDrive::default() },
+            model: DirectDrive { flow, ..DirectDrive::SINE },
             constants: Constants::derive(&Params {
                 flow_direction: flow,
                 centre_of_pressure: centre_of_pressure(record.text("dcp")),

@@ -31,7 +31,7 @@ fn energy(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
 
 /// The model with the flow direction of `p`.
 fn model(p: &Params) -> DirectDrive {
-    DirectDrive { flow: p.flow_direction, ..DirectDrive::default() }
+    DirectDrive { flow: p.flow_direction, ..DirectDrive::SINE }
 }
 
 const STATES: [Range<f64>; 4] = [-0.5..0.5, -1.4..1.4, -400.0..400.0, -800.0..800.0];
@@ -97,7 +97,7 @@ fn the_literal_reading_breaks_the_mirror_symmetry() {
     let c = Constants::derive(&p).unwrap();
     let y = [0.1, 0.7, 100.0, 50.0];
     let [dy, mirrored] =
-        [1.0, -1.0].map(|m| DirectDrive::default().rhs(&c, &Wave::with_rate(0.0, 0.0), m, &y.map(|y| m * y)));
+        [1.0, -1.0].map(|m| DirectDrive::SINE.rhs(&c, &Wave::with_rate(0.0, 0.0), m, &y.map(|y| m * y)));
     assert!((dy[3] + mirrored[3]).abs() > 0.1 * dy[3].abs());
 }
 
@@ -109,6 +109,6 @@ fn a_wing_in_vacuum_keeps_its_energy() {
         let constants = Constants::derive(&p).unwrap();
         let total = |y: &[f64; 4]| energy(&constants, y) - constants.gamma * 30.0 * y[0];
         let start = Start::new(constants, [0.2, 0.5, 30.0, -80.0], 0.05, [0.1, 0.3, 70.0, 200.0]);
-        span::assert_conserved(&DirectDrive::default(), &tolerances(1e-10), &start, 1e-7, total, kind);
+        span::assert_conserved(&DirectDrive::SINE, &tolerances(1e-10), &start, 1e-7, total, kind);
     }
 }

@@ -32,7 +32,7 @@ fn cases() -> Vec<Case> {
             };
             let constants = Constants::derive(&p).unwrap();
             let y = ["theta", "phi", "theta_dot", "phi_dot"].map(|column| record.number(column));
-            let model = FourBar::default();
+            let model = FourBar::SINE;
             let voltages = [model.input(&constants, record.number("t"))];
             let side = side(&constants, &y);
             Case { model, constants, voltages, side, y, record }
@@ -45,8 +45,8 @@ fn accelerations_forces_and_moments_equal_the_reference() {
     let mut largest = (0.0, String::new());
     for Case { constants: c, voltages: [drive], side, y, record, .. } in cases() {
         let [theta, phi, theta_dot, phi_dot] = y;
-        let dy = FourBar::default().rhs(&c, &drive, side, &y);
-        let probe = Probe { model: &FourBar::default(), constants: &c, input: &drive, side };
+        let dy = FourBar::SINE.rhs(&c, &drive, side, &y);
+        let probe = Probe { model: &FourBar::SINE, constants: &c, input: &drive, side };
         let signals = probe.signals(&y, &dy);
         let Moments { stroke, pitch, rotation_stroke, rotation_pitch } = moments(&c, side, &y);
         let links = transmission(&c, theta);
@@ -169,7 +169,7 @@ fn directed_sums_are_the_sums_of_the_strips() {
             let translation = |p: &Params| {
                 let c = Constants::derive(p).unwrap();
                 let input = &Wave::with_rate(0.0, 0.0);
-                let probe = Probe { model: &FourBar::default(), constants: &c, input, side };
+                let probe = Probe { model: &FourBar::SINE, constants: &c, input, side };
                 let signals = probe.signals(&y, &[0.0; 4]);
                 let Moments { stroke, pitch, .. } = moments(&c, side, &y);
                 [signals.lift_translational, signals.drag, stroke, pitch]
@@ -207,16 +207,16 @@ fn equations_go_on_smoothly_past_the_vertical() {
     let c = Constants::derive(&params("sys75")).unwrap();
     let drive = Wave::with_rate(80.0, 0.0);
     let y = [0.1, 0.0, 80.0, -100.0];
-    let [up, down] = [1.0, -1.0].map(|side| FourBar::default().rhs(&c, &drive, side, &y));
+    let [up, down] = [1.0, -1.0].map(|side| FourBar::SINE.rhs(&c, &drive, side, &y));
     assert_eq!(up, down);
     let [up, down] = [1.0, -1.0].map(|side| {
-        let probe = Probe { model: &FourBar::default(), constants: &c, input: &drive, side };
+        let probe = Probe { model: &FourBar::SINE, constants: &c, input: &drive, side };
         probe.signals(&y, &[0.0; 4]).lift_translational
     });
     assert!(up < 0.0);
     assert_eq!(up, -down);
     // With the side held, they go on as a smooth function does.
-    let at = |phi: f64| FourBar::default().rhs(&c, &drive, 1.0, &[0.1, phi, 80.0, -100.0])[3];
+    let at = |phi: f64| FourBar::SINE.rhs(&c, &drive, 1.0, &[0.1, phi, 80.0, -100.0])[3];
     let third = (at(0.02) - 3.0 * at(0.01) + 3.0 * at(0.0) - at(-0.01)) / at(0.0);
     assert!(third.abs() < 1e-4, "{third}");
 }

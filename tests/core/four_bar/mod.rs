@@ -44,7 +44,7 @@ fn mass_matrix(c: &Constants<f64>, theta: f64, phi: f64) -> [f64; 3] {
 
 /// The side of a state: the sign of tan φ.
 fn side(c: &Constants<f64>, y: &[f64; 4]) -> f64 {
-    FourBar::default().switch(c, y, y)[0].signum()
+    FourBar::SINE.switch(c, y, y)[0].signum()
 }
 
 /// Moments of the air without added mass.
@@ -64,7 +64,7 @@ struct Moments {
 fn moments(c: &Constants<f64>, side: f64, y: &[f64; 4]) -> Moments {
     let load = |constants: &Constants<f64>, y: &[f64; 4], dy: [f64; 4]| {
         let input = &Wave::with_rate(0.0, 0.0);
-        Probe { model: &FourBar::default(), constants, input, side }.load(y, &dy)
+        Probe { model: &FourBar::SINE, constants, input, side }.load(y, &dy)
     };
     let (mut translating, mut rotating) = (*c, *c);
     (translating.air.rotation_stroke, translating.air.rotation_pitch) = (0.0, 0.0);

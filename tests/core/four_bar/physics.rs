@@ -38,7 +38,7 @@ fn any_params() -> impl Strategy<Value = Params> {
 
 /// The signals at a state with this derivative.
 fn signals(c: &Constants<f64>, drive: &Wave<f64>, y: &[f64; 4], dy: &[f64; 4]) -> Signals<f64> {
-    Probe { model: &FourBar::default(), constants: c, input: drive, side: side(c, y) }.signals(y, dy)
+    Probe { model: &FourBar::SINE, constants: c, input: drive, side: side(c, y) }.signals(y, dy)
 }
 
 proptest! {
@@ -47,7 +47,7 @@ proptest! {
     fn energy_changes_by_dissipation_alone(p in any_params(), y in STATES, volts in -100.0..100.0) {
         let c = Constants::derive(&p).unwrap();
         let drive = Wave::with_rate(volts, 0.0);
-        let dy = FourBar::default().rhs(&c, &drive, side(&c, &y), &y);
+        let dy = FourBar::SINE.rhs(&c, &drive, side(&c, &y), &y);
         let air = signals(&c, &drive, &y, &dy);
         let damping = c.wing.stroke_damping * y[2] * y[2] + c.wing.hinge_damping * y[3] * y[3];
         let work = -air.power_translational - air.power_rotational - damping;
@@ -133,7 +133,7 @@ fn a_wing_in_vacuum_keeps_its_energy() {
         let constants = Constants::derive(&p).unwrap();
         let start = Start::new(constants, [0.3, 0.5, 30.0, -80.0], 0.1, [0.3, 0.5, 100.0, 200.0]);
         let total = |y: &[f64; 4]| energy(&constants, p.drive_bias, y);
-        span::assert_conserved(&FourBar::default(), &tolerances(1e-10), &start, 1e-7, total, system);
+        span::assert_conserved(&FourBar::SINE, &tolerances(1e-10), &start, 1e-7, total, system);
     }
 }
 
@@ -162,7 +162,7 @@ fn small_motions_have_the_natural_frequencies() {
             y[i] = 1e-7 * shape[i] / shape[0].abs().max(shape[1].abs());
         }
         let start = Start::new(constants, y, 10.0 / frequency, [1.0, 1.0, 100.0, 100.0]);
-        let end = span::end(&FourBar::default(), &tolerances, &start);
+        let end = span::end(&FourBar::SINE, &tolerances, &start);
         for i in 0..2 {
             assert!((end[i] / y[i] - 1.0).abs() < 1e-4, "{frequency} Hz: {y:?} → {end:?}");
         }

@@ -28,13 +28,6 @@ pub struct Drive {
     pub stroke: StrokeMode,
 }
 
-impl Default for Drive {
-    /// A sinusoidal voltage.
-    fn default() -> Drive {
-        Drive::SINE
-    }
-}
-
 impl Drive {
     /// A sinusoidal voltage.
     pub const SINE: Drive = Drive { waveform: Waveform::Shape(Shape::Sine), stroke: StrokeMode::Free };

@@ -15,10 +15,9 @@ use super::constants::Constants;
 use crate::num::Real;
 
 /// Law of the transmission ratio as a function of the displacement.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law {
     /// T(x) = T.
-    #[default]
     Constant,
     /// T(x) = T + T₃ x².
     Square,

@@ -27,9 +27,3 @@ impl Bimorph {
         terms: Terms::NONE,
     };
 }
-
-impl Default for Bimorph {
-    fn default() -> Bimorph {
-        Bimorph::SINE
-    }
-}

@@ -20,9 +20,3 @@ impl DirectDrive {
     pub const SINE: DirectDrive =
         DirectDrive { drive: Drive::SINE, flow: FlowDirection::Uniform, terms: Terms::NONE };
 }
-
-impl Default for DirectDrive {
-    fn default() -> DirectDrive {
-        DirectDrive::SINE
-    }
-}

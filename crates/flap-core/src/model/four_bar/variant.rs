@@ -16,9 +16,3 @@ impl FourBar {
     /// Variant with sinusoidal drive and the body at rest.
     pub const SINE: FourBar = FourBar { drive: Drive::SINE, terms: Terms::NONE };
 }
-
-impl Default for FourBar {
-    fn default() -> FourBar {
-        FourBar::SINE
-    }
-}

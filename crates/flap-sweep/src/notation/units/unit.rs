@@ -173,7 +173,7 @@ impl<'t> Reader<'t> {
 ///
 /// An angle is a pure number, so a torsional stiffness may be given in N*m/rad or N*m. The powers of radians and hertz
 /// are nevertheless counted, because 100 Hz and 100 rad/s are different frequencies.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Dimension {
     base: [i32; 4],
     radian: i32,
