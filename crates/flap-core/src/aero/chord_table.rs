@@ -96,11 +96,10 @@ impl ChordTable {
     /// Checks that the table contains a chord.
     ///
     /// # Errors
-    /// [`Invalid::Together`] if the table is on and all its chords are zero.
+    /// An error if the table is on and all its chords are zero.
     pub(crate) fn check(&self) -> Result<(), Invalid> {
         if self.is_on() && self.mean() <= 0.0 {
-            return Err(Invalid::together(
-                &["chord_table", "chord_0", "chord_5", "chord_10"],
+            return Err(Invalid::new(
                 "chord_table is \"on\", but chord_0 to chord_10 are all zero: set them, for example with `flap device wing OUTLINE.csv`",
             ));
         }

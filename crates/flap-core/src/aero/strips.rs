@@ -30,16 +30,13 @@ pub(crate) fn cut(rule: &[Node], offset: f64, length: f64, chord: impl Fn(f64) -
 }
 
 /// Checks that no chord is negative. `parameters` are the names of the chord's parameters, for the error message.
-pub(crate) fn check_chords(cuts: &[Cut], parameters: &'static [&'static str]) -> Result<(), Invalid> {
+pub(crate) fn check_chords(cuts: &[Cut], parameters: &[&str]) -> Result<(), Invalid> {
     let Some(cut) = cuts.iter().find(|cut| cut.chord < 0.0) else { return Ok(()) };
     let (first, last) = (parameters[0], parameters[parameters.len() - 1]);
     let place = cut.radius;
-    Err(Invalid::together(
-        parameters,
-        format!(
-            "the chord is negative {place} m from the stroke axis: {first} to {last} must give a chord of zero or more"
-        ),
-    ))
+    Err(Invalid::new(format!(
+        "the chord is negative {place} m from the stroke axis: {first} to {last} must give a chord of zero or more"
+    )))
 }
 
 /// Returns the sum Σ f(r, c) Δr over the strips.

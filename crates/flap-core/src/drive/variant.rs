@@ -61,24 +61,20 @@ impl Drive {
     /// Checks that the edges of a square wave fit into the period, and that a prescribed stroke is not a square wave.
     ///
     /// # Errors
-    /// `Together` if the waveform is a square wave, and its rise time exceeds 0.5 of the period or the drive prescribes
+    /// An error if the waveform is a square wave, and its rise time exceeds 0.5 of the period or the drive prescribes
     /// the stroke.
     pub fn check(&self, waveform: &WaveformParameters) -> Result<(), Invalid> {
         if self.waveform != Waveform::Shape(Shape::Square) {
             return Ok(());
         }
         if self.prescribes_stroke() {
-            return Err(Invalid::together(
-                &["stroke_mode", "drive_shape"],
+            return Err(Invalid::new(
                 "stroke_mode is \"prescribed\": the stroke cannot jump as a square wave does: choose another drive_shape",
             ));
         }
         if waveform.drive_rise > 0.5 {
             let rise = waveform.drive_rise;
-            return Err(Invalid::together(
-                &["drive_rise", "drive_shape"],
-                format!("drive_rise is {rise}: a square wave allows at most 0.5"),
-            ));
+            return Err(Invalid::new(format!("drive_rise is {rise}: a square wave allows at most 0.5")));
         }
         Ok(())
     }

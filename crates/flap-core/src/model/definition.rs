@@ -147,7 +147,7 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     ///
     /// # Errors
     /// [`Invalid`] if the combination of parameter values is impossible, or a derived constant is not finite: see
-    /// [`Invalid::together`] and [`Invalid::unless_finite`].
+    /// [`Invalid::unless_finite`].
     fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
 
     /// Returns the symmetry of a point with these constants. By default there is none, and all periods are integrated

@@ -98,13 +98,11 @@ pub fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
 /// Returns the error for a mass matrix that is not positive definite.
 ///
 /// The error message states that the first two of the `parameters` are too large relative to the last two.
-pub(crate) fn inertias_apart(parameters: &'static [&'static str; 4]) -> Invalid {
-    let [a, b, c, d] = parameters;
-    let reason = format!(
+pub(crate) fn inertias_apart([a, b, c, d]: &[&str; 4]) -> Invalid {
+    Invalid::new(format!(
         "the mass matrix is not positive definite: the wing's inertias contradict each other ({a} and {b} against {c} and \
          {d})"
-    );
-    Invalid::together(parameters, reason)
+    ))
 }
 
 /// Returns the state immediately after an impulse at rest that gives the stroke a rate (rad/s), for

@@ -35,7 +35,7 @@ impl Actuator {
     /// Returns the actuator for the parameters of a point.
     ///
     /// # Errors
-    /// `OutOfRange` if the width ratio is not between 0 and 2: at 0 and 2, the width is zero at one end.
+    /// An error if the width ratio is not between 0 and 2: at 0 and 2, the width is zero at one end.
     pub(super) fn new(p: &Params) -> Result<Actuator, Invalid> {
         let gain = taper_gain(p.actuator_width_ratio, p.actuator_extension_ratio)?;
         let length = p.actuator_length;
@@ -70,7 +70,7 @@ impl Actuator {
 /// δz.
 ///
 /// # Errors
-/// `OutOfRange` if the width ratio is not between 0 and 2: at 0 and 2, the width is zero at one end.
+/// An error if the width ratio is not between 0 and 2: at 0 and 2, the width is zero at one end.
 fn taper_gain(width_ratio: f64, extension_ratio: f64) -> Result<f64, Invalid> {
     Invalid::unless_within("actuator_width_ratio", width_ratio, WIDTH_RATIOS)?;
     let gain = if (width_ratio - 1.0).abs() < 0.5 {

@@ -157,8 +157,7 @@ pub(super) fn check_transitions(p: &Params, voltage_max: f64) -> Result<(), Inva
     let stress = (p.stress_field.abs() + voltage_max / p.piezo_thickness) * p.stress_steepness;
     let modulus = p.modulus_steepness * p.modulus_strain;
     if stress.max(modulus.abs()) > EXPONENT_MAX {
-        return Err(Invalid::together(
-            &["stress_steepness", "stress_field", "modulus_steepness", "modulus_strain"],
+        return Err(Invalid::new(
             "a transition is too steep: stress_steepness times field, or modulus_steepness times \
              modulus_strain, exceeds 600",
         ));
@@ -277,8 +276,7 @@ impl Constants<f64> {
     /// Returns an error if the plates have no stiffness, or the mass matrix is not positive definite at every pitch.
     fn checked(self) -> Result<Constants<f64>, Invalid> {
         if self.softening() <= 0.0 {
-            return Err(Invalid::together(
-                &["modulus_decline", "drive_voltage_pp", "piezo_thickness"],
+            return Err(Invalid::new(
                 "the plates have no stiffness: modulus_decline times the mean field in the plates must be less than 1",
             ));
         }

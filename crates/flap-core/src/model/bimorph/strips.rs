@@ -35,8 +35,7 @@ impl Moving<f64> {
             return Ok(Moving::REST);
         }
         if p.centre_of_pressure == CentreOfPressure::Literal {
-            return Err(Invalid::together(
-                &["centre_of_pressure", "body_velocity_forward"],
+            return Err(Invalid::new(
                 "centre_of_pressure = \"literal\" has no meaning on a moving body: set it to \"folded\" or \"directional\"",
             ));
         }
@@ -66,13 +65,10 @@ impl Chord {
         let second = p.wing_radius_2;
         let first = p.wing_radius_1.unwrap_or_else(|| libm::pow(second / 0.929, 1.0 / 0.732));
         if !(second * second < first && first < second) {
-            return Err(Invalid::together(
-                &["wing_radius_1", "wing_radius_2"],
-                format!(
-                    "no wing has wing_radius_1 = {first} and wing_radius_2 = {second}: wing_radius_1 must lie between \
+            return Err(Invalid::new(format!(
+                "no wing has wing_radius_1 = {first} and wing_radius_2 = {second}: wing_radius_1 must lie between \
                      wing_radius_2^2 and wing_radius_2"
-                ),
-            ));
+            )));
         }
         let k = first * (1.0 - first) / (second * second - first * first) - 1.0;
         let (length, mean) = (p.wing_length, p.wing_area / p.wing_length);
@@ -112,8 +108,7 @@ pub(super) fn unsteady(p: &Params) -> Result<Unsteady, Invalid> {
     }
     let chord = Chord::of(p)?;
     if chord.p.min(chord.q) <= 0.75 {
-        return Err(Invalid::together(
-            &["wing_radius_1", "wing_radius_2"],
+        return Err(Invalid::new(
             "the chord that belongs to wing_radius_1 and wing_radius_2 is too large at the root or the tip for \
              circulation_factor, rotation_force_factor and added_mass_factor: make wing_radius_2 smaller, or wing_radius_1 closer to it",
         ));

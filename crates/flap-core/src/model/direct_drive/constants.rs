@@ -126,8 +126,7 @@ fn laminate(p: &Params) -> Laminate<3> {
 fn check(p: &Params) -> Result<(), Invalid> {
     p.chords.check()?;
     if p.lift_sign == LiftSign::Printed && (p.circulation_factor != 0.0 || p.rotation_force_factor != 0.0) {
-        return Err(Invalid::together(
-            &["lift_sign", "circulation_factor", "rotation_force_factor"],
+        return Err(Invalid::new(
             "lift_sign = \"printed\" has no meaning with circulation_factor or rotation_force_factor: set it to \
              \"corrected\"",
         ));

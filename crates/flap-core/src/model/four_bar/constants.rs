@@ -11,7 +11,6 @@ use crate::aero::{Circulation, Cut, Harmonics, Strips, sum};
 use crate::drive::DriveConstants;
 use crate::linkage::{FourBarLinkage, LinkInertias, SliderCrank};
 use crate::model::stroke_and_pitch::inertias_apart;
-use crate::num::PerLane;
 use crate::parameter::Invalid;
 use crate::piezo::{Laminate, Layer};
 use crate::springs::{Stiffening, structural_damping};
@@ -225,30 +224,20 @@ fn actuator(p: &Params, rate: f64) -> Actuator<f64> {
     }
 }
 
-/// Names of the parameters that determine if the four-bar can be assembled.
-const LINKS: [&str; 5] = ["ground_link", "input_link", "coupler_link", "output_link", "neutral_angle"];
-
 /// Returns the four-bar in its neutral position.
 fn four_bar(p: &Params) -> Result<FourBarLinkage<f64>, Invalid> {
     let lengths = [p.ground_link, p.input_link, p.coupler_link, p.output_link];
     let Some(neutral) = p.neutral_angle.or_else(|| FourBarLinkage::stationary_angle(lengths)) else {
-        return Err(Invalid::together(
-            &LINKS,
+        return Err(Invalid::new(
             "the transmission of the four-bar has no maximum for output links between 30 and 80 deg: set neutral_angle",
         ));
     };
-    let four_bar = FourBarLinkage::new(lengths, neutral);
-    if <FourBarLinkage<f64> as PerLane<f64>>::is_finite(&four_bar) {
-        Ok(four_bar)
-    } else {
-        Err(Invalid::together(
-            &LINKS,
-            format!(
-                "the four-bar cannot be assembled with its output link at {neutral} rad: \
-                 ground_link, input_link, coupler_link and output_link do not fit together"
-            ),
+    Invalid::unless_finite(FourBarLinkage::new(lengths, neutral)).map_err(|_| {
+        Invalid::new(format!(
+            "the four-bar cannot be assembled with its output link at {neutral} rad: \
+             ground_link, input_link, coupler_link and output_link do not fit together"
         ))
-    }
+    })
 }
 
 /// Returns the inertias of uniform links. The inertia of a link with a fixed pivot is the inertia about the pivot, and
