@@ -80,24 +80,8 @@ pub fn quantities(text: &str) -> Vec<Quantity<'_>> {
 
 /// Number of bytes of the number at the beginning of `text`; 0 if `text` begins with something else.
 fn number(text: &str) -> usize {
-    let digits = |from: usize| text[from..].bytes().take_while(u8::is_ascii_digit).count();
-    let mut end = digits(0);
-    let mut count = end;
-    if text[end..].starts_with('.') {
-        count += digits(end + 1);
-        end += 1 + digits(end + 1);
-    }
-    if count == 0 {
-        return 0;
-    }
-    if text[end..].starts_with(['e', 'E']) {
-        let sign = usize::from(text[end + 1..].starts_with(['+', '-']));
-        let exponent = digits(end + 1 + sign);
-        if exponent > 0 {
-            end += 1 + sign + exponent;
-        }
-    }
-    end
+    let (mantissa, end) = units::decimal(text);
+    if text[..mantissa].contains(|letter: char| letter.is_ascii_digit()) { end } else { 0 }
 }
 
 /// Number of bytes of the unit at the beginning of `text`; 0 if `text` begins with something else.

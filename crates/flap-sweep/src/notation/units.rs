@@ -10,8 +10,8 @@ mod unit;
 
 use std::ops::Range;
 
-pub(crate) use number::scan;
 pub use number::{UnitError, UnitProblem};
+pub(crate) use number::{decimal, scan};
 pub use prefixed::{exact, meant, prefixed};
 use unit::Unit;
 

@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::error::{ExpressionError, Mistake};
 use super::evaluate::{self, Binary, Function, Operation, Unary};
 use super::scope::{Kind, Meaning, Scope};
-use crate::notation::{nearest, text};
+use crate::notation::{nearest, text, units};
 
 /// Largest nesting of parentheses, functions and operators. Deeper nesting is a mistake or an attack, and would
 /// overflow the stack.
@@ -418,19 +418,7 @@ fn is_name(character: char) -> bool {
 }
 
 fn number(rest: &str) -> Found<'_> {
-    let bytes = rest.as_bytes();
-    let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
-    let mut end = digits(0);
-    if bytes.get(end) == Some(&b'.') {
-        end += 1 + digits(end + 1);
-    }
-    if matches!(bytes.get(end), Some(b'e' | b'E')) {
-        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
-        let count = digits(end + 1 + sign);
-        if count > 0 {
-            end += 1 + sign + count;
-        }
-    }
+    let (_, end) = units::decimal(rest);
     // Characters that continue a number are a mistake: `2x`, `1.2.3`, `1_000`.
     let run = end + rest[end..].find(|c: char| !is_name(c) && c != '.').unwrap_or(rest.len() - end);
     match rest[..end].parse::<f64>() {

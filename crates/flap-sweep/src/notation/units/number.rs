@@ -142,43 +142,44 @@ pub(crate) struct Number<'t> {
     exponent: i64,
 }
 
+/// Returns two lengths in bytes of the decimal number without a sign at the beginning of `text`: without and with the
+/// exponent. The number may be empty or a single point.
+pub(crate) fn decimal(text: &str) -> (usize, usize) {
+    let bytes = text.as_bytes();
+    let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
+    let mut mantissa = digits(0);
+    if bytes.get(mantissa) == Some(&b'.') {
+        mantissa += 1 + digits(mantissa + 1);
+    }
+    let mut end = mantissa;
+    if matches!(bytes.get(end), Some(b'e' | b'E')) {
+        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
+        let count = digits(end + 1 + sign);
+        if count > 0 {
+            end += 1 + sign + count;
+        }
+    }
+    (mantissa, end)
+}
+
 /// Returns the number at the beginning of `text`, and its length in bytes.
 ///
 /// # Errors
 /// An error if `text` does not start with a number, or other characters follow the number (`1e-3e`, `1.2.3`, `1,5`).
 pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
-    let bytes = text.as_bytes();
-    let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
-
-    let sign = usize::from(matches!(bytes.first(), Some(b'+' | b'-')));
+    let sign = usize::from(text.starts_with(['+', '-']));
     let word = text[sign..].split(|c: char| !c.is_alphabetic()).next().unwrap_or("");
     if ["nan", "inf", "infinity"].contains(&word.to_lowercase().as_str()) {
         let end = sign + word.len();
         return Err(UnitError { span: 0..end, problem: UnitProblem::NotFinite(text[..end].to_owned()) });
     }
 
-    let whole = digits(sign);
-    let mut end = sign + whole;
-    let mut fraction = 0;
-    if bytes.get(end) == Some(&b'.') {
-        fraction = digits(end + 1);
-        end += 1 + fraction;
-    }
-    if whole + fraction == 0 {
+    let (mantissa, end) = decimal(&text[sign..]);
+    let (mantissa, end) = (&text[..sign + mantissa], sign + end);
+    if !mantissa.contains(|c: char| c.is_ascii_digit()) {
         return Err(UnitError { span: 0..text.len(), problem: UnitProblem::NoNumber });
     }
-    let mantissa = &text[..end];
-
-    let mut exponent = 0;
-    if matches!(bytes.get(end), Some(b'e' | b'E')) {
-        let sign = usize::from(matches!(bytes.get(end + 1), Some(b'+' | b'-')));
-        let count = digits(end + 1 + sign);
-        if count > 0 {
-            exponent = read_exponent(&text[end + 1..end + 1 + sign + count]);
-            end += 1 + sign + count;
-        }
-    }
-
+    let exponent = text[mantissa.len()..end].get(1..).map_or(0, read_exponent);
     if text[end..].starts_with(|c: char| c.is_ascii_digit() || "eE.,_+-".contains(c)) {
         let run = text.find(char::is_whitespace).unwrap_or(text.len());
         return Err(UnitError { span: 0..run, problem: UnitProblem::BadNumber(text[..run].to_owned()) });
