@@ -26,7 +26,7 @@ pub fn is_free_name(name: &str) -> bool {
         && characters.all(|character| character.is_ascii_alphanumeric() || character == '_')
         && !["and", "or", "not"].contains(&name)
         && evaluate::find(name).is_none()
-        && evaluate::constant(name).is_none()
+        && name != evaluate::PI.0
 }
 
 /// An expression without mistakes.

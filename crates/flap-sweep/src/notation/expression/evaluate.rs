@@ -11,7 +11,6 @@ pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
             Operation::Push(number) => number,
             Operation::Read(place) => read(values, place),
             Operation::ReadOf(choice, ref numbers) => of_choice(numbers, read(values, choice)),
-            Operation::Unary(unary) => one(unary, pop(&mut stack)),
             Operation::Apply(function) => function(pop(&mut stack)),
             Operation::Binary(binary) => {
                 let (a, b) = pop_two(&mut stack);
@@ -35,7 +34,7 @@ pub(super) fn operands(operations: &[Operation]) -> Option<(&[Operation], &[Oper
     for (place, operation) in operations.iter().enumerate().rev() {
         missing += match operation {
             Operation::Push(_) | Operation::Read(_) | Operation::ReadOf(..) => 0,
-            Operation::Unary(_) | Operation::Apply(_) => 1,
+            Operation::Apply(_) => 1,
             Operation::Binary(_) | Operation::Apply2(_) => 2,
         };
         missing -= 1;
@@ -64,13 +63,6 @@ fn pop(stack: &mut Vec<f64>) -> f64 {
 fn pop_two(stack: &mut Vec<f64>) -> (f64, f64) {
     let b = pop(stack);
     (pop(stack), b)
-}
-
-fn one(unary: Unary, a: f64) -> f64 {
-    match unary {
-        Unary::Negate => -a,
-        Unary::Not => 1.0 - a,
-    }
 }
 
 fn two(binary: Binary, a: f64, b: f64) -> f64 {
@@ -111,20 +103,12 @@ pub(super) enum Operation {
     Read(usize),
     /// Pushes the number that belongs to the chosen option of a choice onto the stack.
     ReadOf(usize, Arc<[f64]>),
-    /// Replaces the topmost number on the stack by a function of this number.
-    Unary(Unary),
     /// Replaces the two topmost numbers on the stack.
     Binary(Binary),
     /// Replaces the topmost number on the stack by a function of this number.
     Apply(fn(f64) -> f64),
     /// Replaces the two topmost numbers on the stack by a function of both numbers.
     Apply2(fn(f64, f64) -> f64),
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Unary {
-    Negate,
-    Not,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -183,26 +167,17 @@ const FUNCTIONS: [(&str, Function); 24] = [
     ("tanh", Function::One(libm::tanh)),
 ];
 
-const CONSTANTS: [(&str, f64); 1] = [("pi", std::f64::consts::PI)];
+/// The name and the value of the only constant.
+pub(super) const PI: (&str, f64) = ("pi", std::f64::consts::PI);
 
 /// Returns the function called `name`.
 pub(super) fn find(name: &str) -> Option<Function> {
     FUNCTIONS.iter().find(|(known, _)| *known == name).map(|(_, function)| *function)
 }
 
-/// Returns the constant called `name`.
-pub(super) fn constant(name: &str) -> Option<f64> {
-    CONSTANTS.iter().find(|(known, _)| *known == name).map(|(_, value)| *value)
-}
-
 /// Returns the names of all functions.
 pub(super) fn names() -> impl Iterator<Item = &'static str> {
     FUNCTIONS.iter().map(|(name, _)| *name)
-}
-
-/// Returns the names of all constants.
-pub(super) fn constants() -> impl Iterator<Item = &'static str> {
-    CONSTANTS.iter().map(|(name, _)| *name)
 }
 
 /// Returns the smaller number. Unlike [`f64::min`], the result is NaN if one of the numbers is NaN.

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use super::error::{ExpressionError, Mistake};
-use super::evaluate::{self, Binary, Function, Operation, Unary};
+use super::evaluate::{self, Binary, Function, Operation};
 use super::scope::{Kind, Meaning, Scope};
 use crate::notation::{nearest, text, units};
 
@@ -180,8 +180,8 @@ impl<'a> Parser<'a> {
                 self.operations.push(Operation::Push(number));
                 Ok(Operand { kind: Some(Kind::Number), span })
             }
-            Token::Name("not") => self.signed(Some(Unary::Not), power::NOT, Kind::Condition),
-            Token::Sign("-") => self.signed(Some(Unary::Negate), power::SIGN, Kind::Number),
+            Token::Name("not") => self.signed(Some(|a| 1.0 - a), power::NOT, Kind::Condition),
+            Token::Sign("-") => self.signed(Some(|a: f64| -a), power::SIGN, Kind::Number),
             Token::Sign("+") => self.signed(None, power::SIGN, Kind::Number),
             Token::Sign("(") => {
                 self.advance()?;
@@ -198,17 +198,22 @@ impl<'a> Parser<'a> {
     }
 
     /// Parses the operand of a unary operator.
-    fn signed(&mut self, unary: Option<Unary>, binds: u8, kind: Kind) -> Result<Operand, ExpressionError> {
+    fn signed(
+        &mut self,
+        function: Option<fn(f64) -> f64>,
+        binds: u8,
+        kind: Kind,
+    ) -> Result<Operand, ExpressionError> {
         let (_, sign) = self.advance()?;
         let operand = self.operand(binds)?;
         self.want(kind, &operand);
-        self.operations.extend(unary.map(Operation::Unary));
+        self.operations.extend(function.map(Operation::Apply));
         Ok(Operand { kind: Some(kind), span: sign.start..operand.span.end })
     }
 
     /// Returns the operand that the latest name represents.
     fn named(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
-        let constant = || evaluate::constant(name).map(Meaning::Constant);
+        let constant = || (name == evaluate::PI.0).then_some(Meaning::Constant(evaluate::PI.1));
         let (kind, operation) = match self.scope.meaning(name).or_else(constant) {
             Some(Meaning::Number(place)) => (Kind::Number, Operation::Read(place)),
             Some(Meaning::Condition(place)) => (Kind::Condition, Operation::Read(place)),
@@ -230,7 +235,7 @@ impl<'a> Parser<'a> {
             return error.helps(format!("write {name}(…)"));
         }
         let mut known = self.scope.names();
-        known.extend(evaluate::constants().map(str::to_owned));
+        known.push(evaluate::PI.0.to_owned());
         let help = nearest(name, known.iter().map(String::as_str)).map(did_you_mean);
         let mistake = Mistake::UnknownName(name.to_owned());
         ExpressionError { span: span.clone(), mistake, message: format!("unknown name `{name}`"), help }
