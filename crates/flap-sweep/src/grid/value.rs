@@ -159,30 +159,20 @@ pub(super) fn boolean(name: &str, value: &Value<'_>, problems: &mut Problems) ->
 /// Returns a whole number from 1 to `most`.
 pub(super) fn count(name: &str, most: u64, value: &Value<'_>, problems: &mut Problems) -> Option<u64> {
     let found = match value.get_ref() {
-        DeValue::Integer(integer) => match integer_as_float(integer) {
-            Ok(number) if number >= 1.0 => return at_most(name, most, integer, value, problems),
-            _ => integer.to_string(),
-        },
+        DeValue::Integer(integer) if integer_as_float(integer).is_ok_and(|number| number >= 1.0) => {
+            let count = u64::from_str_radix(integer.as_str(), integer.radix()).ok();
+            let count = count.filter(|count| *count <= most);
+            if count.is_none() {
+                problems.report(value.span(), format!("`{name}` must be at most {most}, not {integer}"));
+            }
+            return count;
+        }
+        DeValue::Integer(integer) => integer.to_string(),
         DeValue::Float(float) => float.to_string(),
         other => table::kind(other).to_owned(),
     };
     problems.report(value.span(), format!("`{name}` must be a whole number of 1 or more, not {found}"));
     None
-}
-
-/// Returns the integer, if the integer is at most `most`.
-fn at_most(
-    name: &str,
-    most: u64,
-    integer: &DeInteger<'_>,
-    value: &Value<'_>,
-    problems: &mut Problems,
-) -> Option<u64> {
-    let count = u64::from_str_radix(integer.as_str(), integer.radix()).ok().filter(|count| *count <= most);
-    if count.is_none() {
-        problems.report(value.span(), format!("`{name}` must be at most {most}, not {integer}"));
-    }
-    count
 }
 
 /// Returns a number in its usual form: `5`, not `5.0`.
