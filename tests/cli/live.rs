@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use server::Live;
 
 use crate::documents::{blocks, document, examples};
-use crate::support::{Folder, send, wait};
+use crate::support::{Folder, WINGS, send, wait};
 
 /// A grid with all entries that the page keeps: a derived parameter, a condition, a measure, a setting.
 const GRID: &str = r#"
@@ -154,6 +154,40 @@ fn a_device_is_saved_whole() {
     });
     let slope = per_percent(gradient.iter().find(|slope| slope["parameter"] == "hinge_stiffness").unwrap());
     assert!((slope / (more - less) - 1.0).abs() < 1e-3, "{slope}, not {}", more - less);
+}
+
+/// At hover, the inputs change with the design: on the page, in `flap run` and in a sweep.
+#[test]
+fn derivatives_at_hover_are_those_of_a_sweep() {
+    let measures = ["power_mean_mw", "hover_amplitude_v"];
+    let folder = Folder::with_grid(&format!(
+        "preset = \"jafferis2016\"\n[params]\ndrive_voltage_pp = \"180 V\"\n\
+         [gradient]\nof = {measures:?}\nwith_respect_to = [\"hinge_stiffness\", \"drive_frequency\"]\n\
+         [vehicle]\ntotal_mass = \"69 mg\"\ntrim = \"hover\"\n{WINGS}"
+    ));
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let row = &table(&folder.read("rows.csv"))[0];
+    let live = Live::start(&folder, &["grid.toml"]);
+    for measure in measures {
+        let point = live.answer("point", json!({ "gradient": measure }));
+        let ended = folder.ends(0, &format!("run grid.toml --gradient {measure} --format csv"));
+        let printed = table(&ended.stdout);
+        let of_page = |name: &str| {
+            let mut slopes = point["gradient"].as_array().unwrap().iter();
+            Some(slopes.find(|slope| slope["parameter"] == name)?["per_percent"].as_f64().unwrap())
+        };
+        let of_command = |name: &str| {
+            let line = printed.iter().find(|line| line["parameter"] == name)?;
+            Some(line["change_per_pct"].parse::<f64>().unwrap())
+        };
+        for name in ["hinge_stiffness", "drive_frequency"] {
+            let wanted: f64 = row[&format!("d_{measure}_per_pct_{name}")].parse().unwrap();
+            for found in [of_page(name).unwrap(), of_command(name).unwrap()] {
+                assert!((found / wanted - 1.0).abs() < 1e-4, "{measure} by {name}: {found}, not {wanted}");
+            }
+        }
+        assert_eq!((of_page("drive_voltage_pp"), of_command("drive_voltage_pp")), (None, None));
+    }
 }
 
 #[test]

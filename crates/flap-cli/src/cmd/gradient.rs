@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use flap_core::simulate::{Column, NoSlope, Row, Status};
 use flap_sweep::notation::text;
+use flap_sweep::resonance::DRIVE_FREQUENCY;
 use flap_sweep::study::strongest::{self, Slopes};
 
 use super::point::Chosen;
@@ -18,7 +19,7 @@ const LISTED: usize = 10;
 
 /// Returns the index of the measure `column`.
 pub(super) fn measure(chosen: &Chosen, column: &str) -> Result<usize, Failure> {
-    let names = || chosen.simulator().columns().iter().map(|column| column.name.as_str());
+    let names = || chosen.columns().iter().map(|column| column.name.as_str());
     names().position(|name| name == column).ok_or_else(|| {
         let failure = Failure::usage(format!("--gradient: there is no measure `{column}`"));
         failure.nearest(column, names(), "`flap models MODEL` lists the measures of a model")
@@ -46,14 +47,12 @@ impl<'c> Gradient<'c> {
                 "--gradient: the motion is {status}, and only periodic motions have derivatives"
             )));
         }
-        let found = chosen.found_parameters().iter().map(|&index| chosen.plan.parameters()[index].name);
-        let found: Vec<&str> = found.collect();
-        if !found.is_empty() {
-            console::say(&format!("--gradient: the derivatives are at fixed {}", found.join(", ")));
+        if chosen.has_found_resonance() {
+            console::say(&format!("--gradient: the derivatives are at fixed {DRIVE_FREQUENCY}"));
         }
         let fixed = chosen.set_parameters();
         let slopes = strongest::slopes(&chosen.plan, chosen.simulator(), &chosen.run(), row, measure, fixed)?;
-        let column = &chosen.simulator().columns()[measure];
+        let column = &chosen.columns()[measure];
         Ok(Gradient { column, value: row.measures[measure], slopes, chosen })
     }
 

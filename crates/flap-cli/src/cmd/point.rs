@@ -32,8 +32,8 @@ pub(crate) struct Chosen {
     set: Vec<usize>,
     /// Indices of the parameters in `set` whose values have a unit.
     set_with_unit: Vec<usize>,
-    /// Indices of the parameters whose values the search for the resonance or for hover found.
-    found: Vec<usize>,
+    /// True if the drive frequency is the resonance that a search found.
+    has_found_resonance: bool,
 }
 
 impl Chosen {
@@ -64,7 +64,8 @@ impl Chosen {
             set_with_unit.extend(units::has_unit(value).then_some(index));
         }
         let index = point.point;
-        let mut chosen = Chosen { plan, values, sampled: None, index, set, set_with_unit, found: Vec::new() };
+        let mut chosen =
+            Chosen { plan, values, sampled: None, index, set, set_with_unit, has_found_resonance: false };
         if let Some(record) = record {
             check_one_wing(&chosen.plan, &point.what, &format!("`flap run` with {}", record.option()))?;
             chosen.apply(record)?;
@@ -146,7 +147,7 @@ impl Chosen {
             Failure::usage(format!("the resonance of this point was not found: {reason}"))
         })?;
         self.values[index] = found;
-        self.found.push(index);
+        self.has_found_resonance = true;
         console::say(&format!("{DRIVE_FREQUENCY} = {} Hz, the resonance", six_digits(found)));
         Ok(())
     }
@@ -161,7 +162,6 @@ impl Chosen {
             inputs.map(|(input, value)| format!("{} = {} {}", input.name, six_digits(*value), input.unit));
         console::say(&format!("{}: the vehicle hovers", inputs.collect::<Vec<_>>().join(", ")));
         self.values = found.applied(&self.values);
-        self.found.extend(found.inputs.iter().map(|input| input.parameter));
         Ok(())
     }
 
@@ -200,9 +200,9 @@ impl Chosen {
         &self.set
     }
 
-    /// Returns the indices of the parameters whose values the search for the resonance or for hover found.
-    pub(crate) fn found_parameters(&self) -> &[usize] {
-        &self.found
+    /// Returns true if the drive frequency is the resonance that a search found.
+    pub(crate) fn has_found_resonance(&self) -> bool {
+        self.has_found_resonance
     }
 
     /// Returns true if the value of a parameter has a unit in the file or on the command line.

@@ -3,7 +3,7 @@
 use std::sync::atomic::Ordering;
 
 use flap_core::num::Backend;
-use flap_core::simulate::{Point, PointRun, Row, Status};
+use flap_core::simulate::{Point, PointRun, Row, Rows, Status};
 use flap_sweep::plan::{Admission, Plan};
 use flap_sweep::study::deviation::{self, Deviation};
 use flap_sweep::study::strongest;
@@ -114,7 +114,7 @@ fn modes(plan: &Plan, values: &[f64]) -> Option<Vec<Mode>> {
 /// Returns the derivatives of a measure with respect to all parameters that can change, or the reason why the measure
 /// has no derivatives.
 fn slopes(plan: &Plan, run: &PointRun<'_>, row: &Row, measure: &str) -> Result<Vec<Slope>, String> {
-    let columns = plan.simulator().columns();
+    let columns = plan.body().map_or_else(|| plan.simulator().columns(), Rows::columns);
     let place = columns.iter().position(|column| column.name == measure);
     let place = place.ok_or_else(|| format!("there is no measure `{measure}` with derivatives"))?;
     if row.status != Status::Periodic {

@@ -18,8 +18,9 @@ pub struct Slopes {
 
 /// Returns the derivatives of the measure number `measure` at the periodic `row` of a point.
 ///
-/// `simulator`, the plan's model, computed the row in `run`. Derived parameters are updated, except parameters in
-/// `fixed`, which have their own values.
+/// The plan's source of rows at hover, or `simulator`, the plan's model, computed the row in `run`. Derived parameters
+/// are updated, except parameters in `fixed`, which have their own values. At hover, the inputs change with the design,
+/// so that the vehicle keeps hovering.
 ///
 /// # Errors
 /// [`Unfinished`], as in
@@ -45,7 +46,10 @@ pub fn slopes(
         size: Change::SHARE,
     });
     let changes: Vec<Change> = changes.collect();
-    let gradient = simulator.gradients()?.gradient(run, &row.state, &changes)?;
+    let gradient = match plan.body() {
+        Some(body) => body.gradient(run, row, &changes)?,
+        None => simulator.gradients()?.gradient(run, &row.state, &changes)?,
+    };
     let (mut known, mut unknown) = (Vec::new(), Vec::new());
     for (index, slopes) in parameters.into_iter().zip(gradient.slopes) {
         match slopes[measure] {
@@ -61,8 +65,8 @@ pub fn slopes(
     Ok(Slopes { known, unknown })
 }
 
-/// Returns the parameters with relative changes: numbers that are set and not zero, not whole numbers, and not
-/// derived.
+/// Returns the parameters with relative changes: numbers that are set and not zero, not whole numbers, not derived, and
+/// no inputs of hover.
 fn changing(plan: &Plan, values: &[f64]) -> Vec<usize> {
     let parameters = plan.parameters().iter().enumerate();
     let changing = parameters.filter(|(index, parameter)| {
@@ -71,7 +75,8 @@ fn changing(plan: &Plan, values: &[f64]) -> Vec<usize> {
             Kind::Choice(_) | Kind::Number(Range::Whole(..)) => false,
             Kind::Number(_) | Kind::Following(..) => value.is_finite() && value != 0.0,
         };
-        has_shares && !plan.derived().parameters().any(|derived| derived == *index)
+        let is_input = plan.body().is_some_and(|body| body.has_input(*index));
+        has_shares && !is_input && !plan.derived().parameters().any(|derived| derived == *index)
     });
     changing.map(|(index, _)| index).collect()
 }
