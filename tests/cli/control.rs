@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{Folder, VEHICLE};
+use crate::support::{Folder, VEHICLE, WINGS};
 
 /// The lines of the matrix: the name of each input, its value, and the change of force and torque.
 fn matrix(folder: &Folder, arguments: &str) -> Vec<(String, f64, [f64; 6])> {
@@ -151,6 +151,21 @@ fn an_input_that_is_zero_has_its_one_sided_derivative() {
     near(slope, near_zero, 1e-2);
     let growth = lift("--inputs transmission_growth");
     assert!(growth != 0.0);
+}
+
+/// A wing without voltage rests, even if the wind makes the rest unstable. The forces at a rest are proportional to the
+/// square of the voltage, so they have no one-sided derivative.
+#[test]
+fn an_unstable_rest_has_no_one_sided_derivative() {
+    let folder = Folder::with_grid(&format!(
+        "preset = \"ozaki2018-large\"\n[params]\nflow_direction = \"blade\"\ndrive_voltage_pp = 0\n\
+         drive_bias = 0\n[vehicle]\n{WINGS}"
+    ));
+    for speed in ["-3.5", "-4.2"] {
+        let ended =
+            folder.ends(2, &format!("vehicle grid.toml --inputs amplitude --set body_velocity_up={speed}"));
+        ended.says("is missing: edge");
+    }
 }
 
 #[test]

@@ -428,7 +428,8 @@ impl Flight<'_> {
         }
         let values = own_values(self.vehicle, values, inputs);
         let row = self.settled(&values, begin)?;
-        let at_rest = row.floquet_max.is_nan();
+        // A rest has no multiplier, unless the rest is unstable.
+        let at_rest = row.floquet_max.is_nan() || row.floquet_max > 1.0;
         let changes = inputs.iter().map(|input| input.change(self.vehicle, &values, at_rest));
         let changes: Vec<Change> = changes.collect::<Result<_, _>>()?;
         let run = PointRun::new(Backend::best(), self.solver, &values).until(self.interrupted);
