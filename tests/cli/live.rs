@@ -239,6 +239,24 @@ fn saved_designs_keep_standard_errors_and_correlations() {
     folder.ends(0, "check family.toml");
 }
 
+/// The standard error of a device belongs to the value of the device, not to the values of an axis.
+#[test]
+fn saved_values_of_an_axis_have_no_standard_errors() {
+    let device = "preset = \"jafferis2016\"\n[params]\n\
+                  hinge_stiffness = { value = \"1.5 uN*m/rad\", sd = \"0.1 uN*m/rad\" }\n\
+                  wing_area = { value = \"55 mm^2\", sd = \"1 mm^2\" }\n\
+                  [[correlation]]\nbetween = [\"hinge_stiffness\", \"wing_area\"]\ncoefficient = 0.5\n";
+    let folder = Folder::with_grid("device = \"bee.toml\"\n[axes]\nhinge_stiffness = [1e-6, 2e-6]\n");
+    fs::write(folder.path("bee.toml"), device).unwrap();
+    let live = Live::start(&folder, &["grid.toml"]);
+    for kind in ["device", "grid"] {
+        let saved = live.answer("save", json!({ "kind": kind }));
+        let text = saved["text"].as_str().unwrap();
+        assert_eq!(text.matches("sd = ").count(), 1, "{text}");
+        assert!(text.contains("hinge_stiffness") && !text.contains("correlation"), "{text}");
+    }
+}
+
 #[test]
 fn the_saved_response_is_that_of_the_page() {
     let folder = Folder::new();

@@ -152,6 +152,13 @@ impl Opened {
             && !self.plan.derived().parameters().any(|derived| derived == index)
     }
 
+    /// Returns the standard error of an opened value. Varied parameters have none, because the standard error of the
+    /// device does not belong to the values of axes.
+    fn error(&self, index: usize) -> Option<f64> {
+        let is_varied = self.plan.axes().varied().any(|varied| varied == index);
+        self.plan.uncertainty().error(index).filter(|_| !is_varied)
+    }
+
     /// Writes lines for the parameters that differ from the published values, except parameters in `axes`.
     ///
     /// Opened values keep their standard errors.
@@ -162,7 +169,7 @@ impl Opened {
         let parameters = self.plan.parameters().iter().enumerate();
         for (index, parameter) in parameters.filter(|(index, _)| own != Some(*index)) {
             let (name, value) = (parameter.name, self.values[index]);
-            let error = self.plan.uncertainty().error(index);
+            let error = self.error(index);
             let is_as_published = value.to_bits() == published[index].to_bits() && error.is_none();
             if is_as_published || value.is_nan() || !self.is_as_opened(index, design, axes) {
                 continue;
@@ -186,7 +193,9 @@ impl Opened {
     /// Writes the correlations between opened values.
     fn write_correlations(&self, page: &mut String, design: &Design, axes: &[Option<&str>]) {
         for Correlation { between, coefficient } in self.plan.uncertainty().correlations() {
-            if !between.iter().all(|&index| self.is_as_opened(index, design, axes)) {
+            let is_written =
+                |&index: &usize| self.is_as_opened(index, design, axes) && self.error(index).is_some();
+            if !between.iter().all(is_written) {
                 continue;
             }
             let [one, other] = between.map(|index| self.plan.parameters()[index].name);
