@@ -5,7 +5,7 @@ use std::fs;
 
 use super::drawn::drawn;
 use super::{HEADER, refused};
-use crate::support::Folder;
+use crate::support::{Folder, WINGS};
 
 /// A sample of voltage, frequency and stiffness: lift grows with the voltage, and does not depend on the stiffness.
 fn sample() -> String {
@@ -198,6 +198,23 @@ fn derivatives_are_at_the_drawn_value_of_an_axis() {
     });
     assert!(high > 1.5 * low, "{low} {high}");
     assert_eq!(all_together("")[0], high, "the drawn slice is at 80 V");
+}
+
+/// At hover, the inputs change with the design: in the rows of the sample, and in the derivatives.
+#[test]
+fn effects_at_hover_contain_the_change_of_the_inputs() {
+    let sample = "[sample]\nn = 8\nmethod = \"sobol\"\n[sample.parameters]\nhinge_stiffness = { relative_sd = \"1 %\" }\n\
+                  [output]\ncolumns = [\"power_mean_mw\"]\n";
+    let folder = Folder::with_grid(&format!(
+        "preset = \"jafferis2016\"\n{sample}[vehicle]\ntotal_mass = \"69 mg\"\ntrim = \"hover\"\n{WINGS}"
+    ));
+    folder.ends(0, "sweep grid.toml --out rows.csv");
+    let ended = folder.ends(0, "plot rows.csv --kind tornado --derivatives --out out.svg");
+    let line = ended.stdout.lines().find(|line| line.starts_with("hinge_stiffness")).unwrap();
+    let cells: Vec<&str> = line.split_whitespace().collect();
+    let [derivative, sample]: [f64; 2] =
+        [2, 1].map(|from_end| cells[cells.len() - from_end].parse().unwrap());
+    assert!((derivative / sample - 1.0).abs() < 0.02, "{line}");
 }
 
 /// For small deviations a measure is linear in the parameters, so derivatives and sample have the same effects.

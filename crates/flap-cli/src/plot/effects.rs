@@ -242,11 +242,11 @@ fn at_means(
     plan: &Plan,
     point: f64,
 ) -> Result<Vec<f64>, Failure> {
-    if !plan.is_direct() {
-        let message = "flap cannot compute derivatives of designs at resonance or at hover";
+    if plan.resonance().is_some() {
+        let message = "flap cannot compute derivatives of designs at resonance";
         return Err(Failure::usage(message).help("draw the tornado without --derivatives"));
     }
-    let place = plan.simulator().columns().iter().position(|column| column.name == measure);
+    let place = plan.rows().columns().iter().position(|column| column.name == measure);
     let place = place.ok_or_else(|| {
         let message = format!("flap cannot compute derivatives of {measure} from the sidecar");
         Failure::usage(message).help("add [gradient] to the grid file, and sweep it again")
@@ -265,7 +265,7 @@ fn at_means(
     }
     plan.derived().fill(&mut values, &[]);
     let run = PointRun::new(Backend::best(), plan.solver(), &values);
-    let row = plan.simulator().run_point(&run, None);
+    let row = plan.rows().run_point(&run, None);
     if row.status != Status::Periodic {
         let message = format!(
             "the motion at the means of the parameters is {}, and has no derivatives",

@@ -137,9 +137,9 @@ impl Plan {
         }
     }
 
-    /// Returns true if the model or vehicle computes the rows itself, so that derivatives and initial states are possible.
-    pub fn is_direct(&self) -> bool {
-        self.resonance().is_none() && self.body().is_none()
+    /// Returns true if a search finds the resonance or hover of each design.
+    pub(crate) fn has_search(&self) -> bool {
+        self.resonance().is_some() || self.body().is_some_and(BodyRows::is_at_hover)
     }
 
     /// Returns the name of the preset; empty if the plan has no preset.

@@ -137,13 +137,18 @@ impl BodyRows {
         for slopes in &mut found.slopes {
             // The columns between the measures of the vehicle and the inputs have no derivatives.
             let of_inputs = slopes.split_off(self.vehicle.columns().len());
-            if self.inputs.is_some() {
+            if self.is_at_hover() {
                 slopes.extend([Err(NoSlope::Missing); OF_HOVER]);
             }
             slopes.extend(of_inputs);
             slopes.resize(self.columns.len(), Err(NoSlope::Missing));
         }
         Ok(found)
+    }
+
+    /// Returns true if a search finds hover for each row.
+    pub(crate) fn is_at_hover(&self) -> bool {
+        self.inputs.is_some()
     }
 
     /// Returns true if the search for hover changes this parameter.

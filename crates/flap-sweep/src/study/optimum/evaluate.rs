@@ -244,7 +244,7 @@ impl<'p> Evaluator<'p> {
             std::iter::once(trial.goal).chain(trial.sides.iter().flatten().copied()).collect()
         };
         let here = quantities(trial);
-        let step = if self.problem.plan.is_direct() { STEP } else { STEP_OF_SEARCH };
+        let step = if self.problem.plan.has_search() { STEP_OF_SEARCH } else { STEP };
         for step in [step, -step] {
             let mut moved = trial.coordinates.clone();
             moved[number] += step;
