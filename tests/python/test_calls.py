@@ -83,6 +83,8 @@ def test_a_design_at_its_resonance():
     hover = {"preset": "jafferis2016", "vehicle": {"total_mass": "85 mg", "trim": "hover", "wings": wings}}
     with pytest.raises(ValueError, match="rows at hover, and rows with the damping matrix, have no states"):
         flapwing.run(hover, initial_state={"left_pitch": "10 deg"})
+    with pytest.raises(ValueError, match="`drive_voltage_pp` is a column, but the search for hover changes it"):
+        flapwing.evaluate(hover, {"drive_voltage_pp": [100.0, 140.0]})
 
 
 def test_formulas_use_the_frequency_of_a_record():

@@ -92,6 +92,9 @@ pub(crate) fn refused(given: &str, error: &ChangeError) -> PyErr {
         ChangeError::Resonance(name) => {
             format!("`{name}` is {given}, but the grid runs each design at its resonance: keep one of them")
         }
+        ChangeError::Input(name) => format!(
+            "`{name}` is {given}, but the search for hover changes it: remove it, or remove trim from the vehicle"
+        ),
         other => other.to_string(),
     })
 }

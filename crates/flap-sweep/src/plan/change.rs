@@ -29,6 +29,9 @@ pub enum ChangeError {
     /// The drive frequency is the resonance of each design.
     #[error("`{0}` is set to the resonance of each design")]
     Resonance(String),
+    /// The parameter is an input of hover.
+    #[error("the search for hover changes `{0}`")]
+    Input(String),
     /// The parameter does not accept the value.
     #[error("`{parameter}` does not take this value")]
     Value {
@@ -252,10 +255,14 @@ impl Plan {
     /// # Errors
     /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if a value comes from an axis,
     ///   a formula or the resonance.
+    /// - [`ChangeError::Input`] if the search for hover changes a parameter.
     /// - [`ChangeError::TooManyPoints`] if the plan would have too many points.
     pub fn crossed_with(mut self, parameters: Vec<(usize, Vec<f64>)>) -> Result<Plan, ChangeError> {
         for (place, (parameter, _)) in parameters.iter().enumerate() {
             self.check_free(*parameter)?;
+            if self.body().is_some_and(|body| body.has_input(*parameter)) {
+                return Err(ChangeError::Input(self.parameters()[*parameter].name.to_owned()));
+            }
             if parameters[..place].iter().any(|(before, _)| before == parameter) {
                 return Err(ChangeError::Varied(self.parameters()[*parameter].name.to_owned()));
             }
