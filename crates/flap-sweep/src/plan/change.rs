@@ -4,7 +4,6 @@ use std::sync::Arc;
 
 use flap_core::parameter::Kind;
 use flap_core::simulate::{Gradients, Setting, SettingKind, SolverSettings};
-use flap_core::vehicle::of_all_wings;
 
 use super::Plan;
 use super::axes::{Along, Axes, Axis, TooManyPoints, Values};
@@ -158,17 +157,9 @@ impl Plan {
         for &parameter in &by {
             let known = &self.parameters()[parameter];
             let is_derived = self.derived().parameters().any(|derived| derived == parameter);
-            let is_varied = |parameter| self.axes().varied().any(|varied| varied == parameter);
-            let follows = |parameter: usize| match self.base()[parameter] {
-                Value::Follows(follows) if !is_varied(parameter) => Some(follows),
-                Value::Given(_) | Value::Follows(_) | Value::Resonance | Value::OfDesign => None,
-            };
-            // An unset parameter of one wing has the value of all wings.
-            let own = follows(parameter);
-            let shared = of_all_wings(self.parameters(), parameter).filter(|_| own.is_some());
-            let is_input = self.body().is_some_and(|body| body.has_input(shared.unwrap_or(parameter)));
-            let follows = shared.map_or(own, follows);
-            gradient::check(known, is_derived, is_input, follows)
+            let standing = self.standing(parameter);
+            let is_input = self.body().is_some_and(|body| body.has_input(standing));
+            gradient::check(known, is_derived, is_input, self.unset(standing))
                 .map_err(|reason| ChangeError::NoShares(known.name.to_owned(), reason))?;
         }
         let models = self.rows().columns().len();

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Point, Rows, Simulator, SolverSettings};
-use flap_core::vehicle::Vehicle;
+use flap_core::vehicle::{Vehicle, of_all_wings};
 use serde::{Deserialize, Serialize};
 
 use super::axes::{Along, Axes};
@@ -324,6 +324,24 @@ impl Plan {
     /// The indices are first the varied parameters in the order of the axes, then the derived parameters.
     pub fn differing(&self) -> impl Iterator<Item = usize> + '_ {
         self.axes().varied().chain(self.derived().parameters())
+    }
+
+    /// Returns the description of the parameters from which `parameter` is computed, if no part of the plan sets
+    /// `parameter`.
+    pub(crate) fn unset(&self, parameter: usize) -> Option<&'static str> {
+        match self.base()[parameter] {
+            Value::Follows(follows) if self.differing().all(|differing| differing != parameter) => {
+                Some(follows)
+            }
+            Value::Given(_) | Value::Follows(_) | Value::Resonance | Value::OfDesign => None,
+        }
+    }
+
+    /// Returns the index of the parameter that gives the value of `parameter`. An unset parameter of one wing has the
+    /// value of all wings.
+    pub(crate) fn standing(&self, parameter: usize) -> usize {
+        let shared = of_all_wings(self.parameters(), parameter).filter(|_| self.unset(parameter).is_some());
+        shared.unwrap_or(parameter)
     }
 
     /// Adds the measures of the plan to the measures of a row, if the point has measures.

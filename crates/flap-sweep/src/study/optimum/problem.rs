@@ -1,7 +1,6 @@
 //! The statement of a problem: a plan, the goal that must be largest or smallest, and limits.
 
 use flap_core::parameter::{Kind as ParameterKind, Parameter};
-use flap_core::vehicle::of_all_wings;
 
 use super::answer::Optimum;
 use super::limit::Limit;
@@ -245,17 +244,12 @@ impl Names<'_> {
     }
 
     fn of_parameter(&self, index: usize) -> Meaning<'_> {
-        let parameters = self.plan.parameters();
-        let follows = |index: usize| match self.plan.base()[index] {
-            Value::Given(_) | Value::OfDesign => None,
-            _ if self.plan.differing().any(|differing| differing == index) => None,
-            Value::Follows(follows) => Some(follows),
+        let index = self.plan.standing(index);
+        let unset = match self.plan.base()[index] {
             Value::Resonance => Some("the resonance of each design, which is the measure resonance_hz"),
+            _ => self.plan.unset(index),
         };
-        // A wing's own parameter that is not set has the value of all wings.
-        let shared = of_all_wings(parameters, index).filter(|_| follows(index).is_some());
-        let index = shared.unwrap_or(index);
-        match (&parameters[index].kind, follows(index)) {
+        match (&self.plan.parameters()[index].kind, unset) {
             (ParameterKind::Choice(options), _) => Meaning::Choice(index, options),
             (_, Some(follows)) => Meaning::Unset(follows, String::new()),
             (_, None) => Meaning::Number(index),
