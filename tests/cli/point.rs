@@ -1,5 +1,7 @@
 //! `flap run`.
 
+use std::fs;
+
 use crate::support::{Folder, frequencies};
 
 /// The text after the first word of the line that starts with `name`.
@@ -70,6 +72,22 @@ fn a_trajectory_is_sampled() {
     assert_eq!(piped.stdout, motion);
     let rest = folder.ends(0, "run ozaki2018-large --trajectory - --cycles 3 --samples 20 --from-rest");
     assert_ne!(rest.stdout, motion);
+}
+
+/// The motions of all designs are in memory at once.
+#[test]
+fn trajectories_have_a_largest_number_of_samples() {
+    let folder = Folder::new();
+    fs::write(folder.path("wave.csv"), "time_s,wave\n0,0\n0.002,40\n0.004,0\n0.006,-40\n0.008,0\n").unwrap();
+    let designs = "run ozaki2018-large --trajectory motion.csv --each drive_bias=0,1,2,3,4,5";
+    folder.refuses(
+        &format!("{designs} --cycles 4 --samples 250000"),
+        "6000000 samples are too many: the number of designs times --cycles times --samples must be at most 5000000",
+    );
+    folder.refuses(
+        &format!("{designs} --waveform wave.csv --once --samples 1000000"),
+        "6000000 samples are too many: the number of designs times --samples must be at most 5000000",
+    );
 }
 
 #[test]

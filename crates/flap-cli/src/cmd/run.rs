@@ -233,12 +233,16 @@ fn longer(design: &Design, args: &RunArgs) -> String {
 const SAMPLES_MAX: u64 = 5_000_000;
 
 fn check_length(designs: usize, args: &RunArgs) -> Result<(), Failure> {
-    let samples = designs as u64 * u64::from(args.cycles) * u64::from(args.samples);
+    let cycles = if args.once { 1 } else { args.cycles };
+    let samples = designs as u64 * u64::from(cycles) * u64::from(args.samples);
     if samples <= SAMPLES_MAX {
         return Ok(());
     }
-    let message =
-        format!("{samples} samples are too many: --cycles times --samples must be at most {SAMPLES_MAX}");
+    let designs = (designs > 1).then_some("the number of designs");
+    let cycles = (!args.once).then_some("--cycles");
+    let factors: Vec<&str> = designs.into_iter().chain(cycles).chain(["--samples"]).collect();
+    let product = factors.join(" times ");
+    let message = format!("{samples} samples are too many: {product} must be at most {SAMPLES_MAX}");
     Err(Failure::usage(message))
 }
 
