@@ -163,12 +163,17 @@ impl Source {
 struct Gathered {
     cells: Cells,
     codes: HashMap<String, u32>,
+    /// Texts of the first cells of a column of numbers. If a later cell is a word, these texts are words too.
+    texts: StringRecord,
 }
+
+/// Largest number of texts that a column of numbers keeps. The texts take more memory than the numbers.
+const MOST_TEXTS: usize = 100_000;
 
 impl Gathered {
     fn new(wanted: bool) -> Gathered {
         let cells = if wanted { Cells::Numbers(Vec::new()) } else { Cells::Unread };
-        Gathered { cells, codes: HashMap::new() }
+        Gathered { cells, codes: HashMap::new(), texts: StringRecord::new() }
     }
 
     /// Adds the cell of row number `row`.
@@ -178,6 +183,9 @@ impl Gathered {
                 Ok(value) => values.push(value),
                 Err(_) if cell.is_empty() => values.push(f64::NAN),
                 Err(_) => self.turn_to_words(row),
+            }
+            if self.texts.len() == row && row < MOST_TEXTS {
+                self.texts.push_field(cell);
             }
         }
         if let Cells::Words { codes, words } = &mut self.cells
@@ -193,7 +201,10 @@ impl Gathered {
             *cells = cells.iter().step_by(2).copied().collect();
         }
         match &mut self.cells {
-            Cells::Numbers(values) => every_second(values),
+            Cells::Numbers(values) => {
+                every_second(values);
+                self.texts = self.texts.iter().step_by(2).collect();
+            }
             Cells::Words { codes, .. } => every_second(codes),
             Cells::Unread => {}
         }
@@ -204,8 +215,9 @@ impl Gathered {
         let Cells::Numbers(values) = &self.cells else { return };
         let mut words = Vec::new();
         let text = |value: &f64| if value.is_nan() { String::new() } else { value.to_string() };
-        let codes: Vec<u32> =
-            values.iter().take(rows).map(|value| code(&text(value), &mut words, &mut self.codes)).collect();
+        let rest = values.iter().take(rows).skip(self.texts.len()).map(text);
+        let texts = self.texts.iter().map(ToOwned::to_owned).chain(rest);
+        let codes = texts.map(|text| code(&text, &mut words, &mut self.codes)).collect();
         self.cells = Cells::Words { codes, words };
     }
 }
@@ -305,8 +317,8 @@ mod tests {
         let codes = vec![NO_WORD, 0, 1, 0];
         assert_eq!(words, Cells::Words { codes, words: vec!["up".to_owned(), "down".to_owned()] });
         assert_eq!(
-            gathered(&["3", "up"]),
-            Cells::Words { codes: vec![0, 1], words: vec!["3".to_owned(), "up".to_owned()] }
+            gathered(&["3.0", "", "up"]),
+            Cells::Words { codes: vec![0, NO_WORD, 1], words: vec!["3.0".to_owned(), "up".to_owned()] }
         );
     }
 
@@ -318,6 +330,9 @@ mod tests {
         }
         column.halve();
         assert_eq!(column.cells, Cells::Numbers(vec![0.0, 2.0, 4.0]));
+        column.push("up", 3);
+        let words = ["0", "2", "4", "up"].map(ToOwned::to_owned).to_vec();
+        assert_eq!(column.cells, Cells::Words { codes: vec![0, 1, 2, 3], words });
     }
 
     #[test]
