@@ -69,6 +69,7 @@ fn the_best_rows_come_first() {
     let most = folder.ends(0, "top rows.csv --by power_mean_mw -n 1 --aim max --format csv");
     assert_eq!(column(&cells(&most.stdout), "power_mean_mw"), power[29..]);
     assert_eq!(cells(&folder.ends(0, "top rows.csv --by cycles --format csv").stdout).len(), 11, "ten rows");
+    folder.ends_with(0, &["top", "rows.csv", "--by", " cycles"]);
     assert_eq!(cells(&folder.ends(0, "top rows.csv --by cycles -n 99 --format csv").stdout).len(), 31);
 }
 

@@ -21,7 +21,7 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     let mut source = Source::open(results, read, true)?;
     let filters = Filters::of(filters, &source)?;
     let columns = columns(args, &source)?;
-    let by = source.find(&args.by)?;
+    let by = source.find(args.by.trim())?;
     let ranking = source.names()[by].clone();
     let status = source.place("status").filter(|_| !all);
     let units: Vec<String> = columns.iter().map(|&column| source.unit(column)).collect();
