@@ -74,6 +74,7 @@ fn names_are_completed() {
         ("flap models four", "four-bar"),
         ("flap generate schema --preset ozaki2018-l", "ozaki2018-large ozaki2018-large-kw-swapped"),
         ("flap run ozaki2018-large --set hinge_stiffn", "hinge_stiffness="),
+        ("flap run ozaki2018-large --each hinge_stiffn", "hinge_stiffness="),
         ("flap run ozaki2018-large --set transmission_", ""),
         (
             "flap run jafferis2016 --set transmission_",

@@ -57,7 +57,7 @@ fn completed(arg: Arg) -> Arg {
         "NAME|FILE" => arg.add(ArgValueCompleter::new(names_and_files)),
         "PRESET|FILE" => arg.add(ArgValueCompleter::new(presets_and_files)),
         "PARAMETER" => arg.add(ArgValueCandidates::new(parameters)),
-        "NAME=VALUE" => arg.add(ArgValueCompleter::new(assignments)),
+        "NAME=VALUE" | "NAME=VALUE,..." => arg.add(ArgValueCompleter::new(assignments)),
         "COLUMN" | "COLUMN,..." => arg.add(ArgValueCandidates::new(columns)),
         "COLUMN=VALUE|COMPARISON" => arg.add(ArgValueCandidates::new(conditions)),
         "STATUS,..." => arg.add(ArgValueCandidates::new(statuses)),
