@@ -1,6 +1,6 @@
 //! The best design within the axes of a grid.
 
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::num::NonZeroUsize;
 
 use flap_sweep::grid;
@@ -44,11 +44,16 @@ pub(crate) fn optimise<'py>(
     let problem = Problem::new(plan, goal, aim, &conditions)
         .map_err(|error| refused(&error, goal, is_largest, &conditions))?;
     let (found, watch) = py.detach(|| {
-        let watch = RefCell::new(Watch::new(progress));
+        let (watch, all) = (RefCell::new(Watch::new(progress)), Cell::new(0));
         let found = optimum::optimise(&problem, &settings, &|finished, points| {
+            all.set(points);
             watch.borrow_mut().stops(Progress { finished, points })
         });
-        (found, watch.into_inner())
+        let mut watch = watch.into_inner();
+        if found.is_ok() {
+            watch.done(all.get());
+        }
+        (found, watch)
     });
     watch.ended()?;
     let best = found.map_err(|error| error::run(&error))?;
