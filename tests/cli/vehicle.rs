@@ -346,6 +346,7 @@ fn what_a_vehicle_cannot_do_is_told() {
         ("test impulse grid.toml", "`flap test impulse`"),
         ("respond grid.toml --from 90 --to 100 --step 5", "`flap respond`"),
         ("test resonance grid.toml", "`flap test resonance`"),
+        ("test lift grid.toml motion.csv", "`flap test lift`"),
         ("device new grid.toml", "`flap device new`"),
     ] {
         let ended = folder.ends(2, command);

@@ -11,7 +11,7 @@ use flap_sweep::study::experiment;
 use crate::args::{LiftArgs, SolverArgs};
 use crate::cmd::motion::write_file;
 use crate::cmd::outputs;
-use crate::cmd::point::Chosen;
+use crate::cmd::point::{Chosen, check_one_wing};
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
 use crate::print;
@@ -19,6 +19,7 @@ use crate::table::{Table, six_digits};
 
 pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     let Chosen { plan, values, .. } = Chosen::new(&args.point, &SolverArgs::default())?;
+    check_one_wing(&plan, &args.point.what, "`flap test lift`")?;
     let mut inputs = Inputs::new();
     inputs.add_plan(&plan).add("the motion", &args.motion);
     outputs::check_tables(&inputs, [args.trajectory.as_deref()])?;
