@@ -138,29 +138,40 @@ fn a_mass_is_enough_for_the_power_of_hover() {
 #[test]
 fn derivatives_at_hover_contain_the_change_of_the_inputs() {
     let measures = ["power_mean_mw", "hover_amplitude_v", "left_stroke_pp_deg", "power_per_volt"];
-    let grid = |parameter: &str, values: [f64; 3]| {
+    let grid = |parameter: &str, values: [f64; 3], more: &str, vehicle: &str| {
         format!(
             "preset = \"jafferis2016\"\n[axes]\n{parameter} = {values:?}\n[solver]\nrtol = 1e-9\n\
              [measure]\npower_per_volt = \"power_mean_mw / drive_voltage_pp\"\n\
-             [gradient]\nof = {:?}\nwith_respect_to = [{parameter:?}]\n\
-             [vehicle]\ntrim = \"hover\"\n{}{WINGS}",
-            [&measures[..], &["hover_growth_1_s"]].concat(),
-            if parameter == "total_mass" { "" } else { "total_mass = \"69 mg\"\n" },
+             [gradient]\nof = {:?}\nwith_respect_to = [{parameter:?}]\n{vehicle}trim = \"hover\"\n{WINGS}",
+            [&measures[..], &[more]].concat(),
         )
     };
-    for (parameter, value) in [("hinge_stiffness", 1.5e-6), ("total_mass", 69e-6)] {
-        let folder = Folder::with_grid(&grid(parameter, [value, 0.999 * value, 1.001 * value]));
+    let light = "[vehicle]\ntotal_mass = \"69 mg\"\n";
+    let derived = "[derived]\ntotal_mass = \"46 * hinge_stiffness\"\n[vehicle]\n";
+    let (growth, difference) = ("hover_growth_1_s", "hover_amplitude_difference_v");
+    for (parameter, value, more, vehicle) in [
+        ("hinge_stiffness", 1.5e-6, growth, light),
+        ("hinge_stiffness", 1.5e-6, "force_up_mn", derived),
+        ("left_hinge_stiffness", 1.5e-6, difference, light),
+        ("total_mass", 69e-6, growth, "[vehicle]\n"),
+    ] {
+        let folder =
+            Folder::with_grid(&grid(parameter, [value, 0.999 * value, 1.001 * value], more, vehicle));
         folder.ends(0, "sweep grid.toml --out rows.csv");
         let rows = folder.read("rows.csv");
-        for measure in measures {
+        let slope = |measure: &str| format!("d_{measure}_per_pct_{parameter}");
+        for measure in measures.into_iter().chain((more != growth).then_some(more)) {
             let values = numbers(&rows, measure);
-            let difference = (values[2] - values[1]) / 0.2;
-            near(numbers(&rows, &format!("d_{measure}_per_pct_{parameter}"))[0], difference, 1e-4);
+            near(numbers(&rows, &slope(measure))[0], (values[2] - values[1]) / 0.2, 1e-4);
         }
-        assert_eq!(column(&rows, &format!("d_hover_growth_1_s_per_pct_{parameter}"))[0], "");
-        assert_eq!(column(&rows, "gradient_gap")[0], "missing");
+        if more == growth {
+            assert_eq!(column(&rows, &slope(growth))[0], "");
+            assert_eq!(column(&rows, "gradient_gap")[0], "missing");
+        } else {
+            assert_eq!(column(&rows, "gradient_gap")[0], "");
+        }
     }
-    let amplitude = grid("drive_frequency", [120.0, 121.0, 122.0])
+    let amplitude = grid("drive_frequency", [120.0, 121.0, 122.0], growth, light)
         .replace("with_respect_to = [\"drive_frequency\"]", "with_respect_to = [\"drive_voltage_pp\"]");
     Folder::with_grid(&amplitude).refuses(
         "sweep grid.toml --out rows.csv",
