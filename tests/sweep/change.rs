@@ -1,5 +1,6 @@
 //! Changes of plans: a rejected change leaves the plan unchanged.
 
+use flap_core::parameter::Parameter;
 use flap_core::simulate::{SolverSettings, all};
 use flap_sweep::grid;
 use flap_sweep::notation::value::ValueError;
@@ -54,6 +55,33 @@ fn rows_of_a_program_are_an_axis_before_all_others() {
     let huge = "preset = \"fly\"\n[axes]\nwing_area = { from = 1, to = 2, n = 5_000_000_000_000_000_000 }\n";
     let error = refused(plan(huge).crossed_with(rows("drive_frequency", &[1.0, 2.0])));
     assert!(matches!(error, ChangeError::TooManyPoints(_)), "{error:?}");
+    let hover = vehicle("total_mass = \"69 mg\"\ntrim = \"hover\"\n");
+    let voltage = place(&hover, "drive_voltage_pp");
+    let error = refused(hover.crossed_with(vec![(voltage, vec![100.0, 140.0])]));
+    assert_eq!(error, ChangeError::Input("drive_voltage_pp".to_owned()));
+}
+
+/// A vehicle with two wings, with these further keys in `[vehicle]`.
+fn vehicle(keys: &str) -> Plan {
+    let wings = "[[vehicle.wings]]\nname = \"left\"\n[[vehicle.wings]]\nname = \"right\"\nmirrored = true\n";
+    let text = format!("preset = \"jafferis2016\"\n[vehicle]\n{keys}{wings}");
+    grid::parse("grid.toml", &text, all()).unwrap_or_else(|mistakes| panic!("{mistakes:?}"))
+}
+
+fn place(plan: &Plan, name: &str) -> usize {
+    Parameter::index(plan.parameters(), name).unwrap()
+}
+
+/// An unset parameter of one wing has the value of all wings, which a formula may give.
+#[test]
+fn derivatives_by_one_wing_need_a_value_of_all_wings() {
+    let slopes = |rest: &str| {
+        let plan = vehicle(rest);
+        let left = place(&plan, "left_hinge_thickness");
+        plan.with_slopes(vec![left]).map(|plan| plan.gradient().map_or(0, Gradient::len) > 0)
+    };
+    assert!(matches!(slopes(""), Err(ChangeError::NoShares(_, NoShares::Unset(_)))));
+    assert_eq!(slopes("[derived]\nhinge_thickness = \"10 * hinge_stiffness\"\n"), Ok(true));
 }
 
 #[test]
