@@ -7,6 +7,7 @@
 //! - Steps with equal motions of both branches at one end only.
 //! - Steps in which the response is steep, because such steps may contain a narrow band of hysteresis.
 
+use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status};
 
 use super::curve::{Comparison, Curve, Step, compare, component_sizes, is_steep};
@@ -22,6 +23,8 @@ pub(super) struct Follow<'a> {
     up: Vec<Step>,
     down: Vec<Step>,
     stage: Stage,
+    /// For each of the latest points, the reason why the point cannot be run.
+    invalid: Vec<Option<Invalid>>,
 }
 
 /// Stage of the computation of a curve.
@@ -47,7 +50,8 @@ struct Interval {
 
 impl<'a> Follow<'a> {
     pub(super) fn new(plan: &'a Plan, along: &'a Along, design: Point) -> Follow<'a> {
-        Follow { plan, along, design, up: Vec::new(), down: Vec::new(), stage: Stage::Steps }
+        let stage = Stage::Steps;
+        Follow { plan, along, design, up: Vec::new(), down: Vec::new(), stage, invalid: Vec::new() }
     }
 
     pub(super) fn finish(mut self) -> Curve {
@@ -155,9 +159,10 @@ impl PointSequence for Follow<'_> {
     fn probes(&mut self) -> Vec<Point> {
         loop {
             let points = self.points();
-            let possible: Vec<Point> =
-                points.iter().filter(|point| self.plan.invalid(&point.values).is_none()).cloned().collect();
-            if points.is_empty() || !possible.is_empty() {
+            self.invalid = points.iter().map(|point| self.plan.invalid(&point.values)).collect();
+            let possible = points.into_iter().zip(&self.invalid).filter(|(_, invalid)| invalid.is_none());
+            let possible: Vec<Point> = possible.map(|(point, _)| point).collect();
+            if self.invalid.is_empty() || !possible.is_empty() {
                 return possible;
             }
             self.take(Vec::new());
@@ -166,9 +171,9 @@ impl PointSequence for Follow<'_> {
 
     /// `rows` has no rows for points that cannot be run.
     fn take(&mut self, rows: Vec<Row>) {
-        let mut rows = rows.into_iter();
-        let row = |point: &Point| self.plan.invalid(&point.values).map(Row::invalid).or_else(|| rows.next());
-        let mut rows = self.points().iter().map_while(row).collect::<Vec<Row>>().into_iter();
+        let mut of_possible = rows.into_iter();
+        let row = |invalid: Option<Invalid>| invalid.map(Row::invalid).or_else(|| of_possible.next());
+        let mut rows = std::mem::take(&mut self.invalid).into_iter().map_while(row);
         match std::mem::replace(&mut self.stage, Stage::Done) {
             Stage::Steps => {
                 let Some([up, down]) = self.next_values() else { return };
