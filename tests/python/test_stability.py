@@ -92,6 +92,12 @@ def test_rows_at_hover_have_the_numbers_of_the_linear_model():
     for measure in ("hover_amplitude_v", "power_mean_mw"):
         slope = (table[measure][2] - table[measure][0]) / (stiffness[2] - stiffness[0])
         assert table[f"d_{measure}_per_si_hinge_stiffness"][1] == pytest.approx(slope, rel=2e-4)
+    # Damping cannot be negative, so its derivative at zero is one-sided.
+    damping = np.array([0.0, 1e-10])
+    table = flapwing.evaluate(hovering, {"stroke_damping": damping}, gradient=["stroke_damping"], rtol=1e-9)
+    for measure in ("hover_amplitude_v", "power_mean_mw"):
+        slope = (table[measure][1] - table[measure][0]) / damping[1]
+        assert table[f"d_{measure}_per_si_stroke_damping"][0] == pytest.approx(slope, rel=2e-3)
     best = flapwing.sweep({**hovering, "axes": {"about_z": ["-1 mm", "-3 mm", "-5 mm"]}})
     assert np.argmin(best["hover_growth_1_s"]) == 1
 
