@@ -502,9 +502,7 @@ fn names_that_are_near_come_first_and_lists_are_short() {
     let ended = folder.ends(2, "describe wide.csv --columns zebra");
     ended.says("c19 and 999980 more columns\n");
     assert!(ended.stderr.len() < 1000, "{} bytes", ended.stderr.len());
-    fs::write(folder.path("wide-motion.csv"), format!("{}\n{}1\n", names.join(","), "1,".repeat(999_999)))
-        .unwrap();
-    let ended = folder.ends(2, "test lift ozaki2018-small wide-motion.csv");
+    let ended = folder.ends(2, "test lift ozaki2018-small wide.csv");
     assert!(ended.stderr.len() < 1000, "{} bytes", ended.stderr.len());
     let flap = env!("CARGO_BIN_EXE_flap");
     let ended = folder.shell(&format!("ulimit -t 20; exec {flap} describe wide.csv --format csv"));
