@@ -129,15 +129,20 @@ fn signals_end_every_command_within_a_point() {
         format!("test resonance {design} --from 81 --to 83"),
     ] {
         let arguments: Vec<&str> = command.split_whitespace().collect();
-        for signal in ["INT", "TERM"] {
+        let children = ["INT", "TERM"].map(|signal| {
             let folder = Folder::with_grid(&grid);
-            let mut child = start(&folder, &arguments);
-            thread::sleep(Duration::from_millis(500));
+            let child = start(&folder, &arguments);
+            (signal, child, folder)
+        });
+        thread::sleep(Duration::from_millis(500));
+        let ended = children.map(|(signal, mut child, _folder)| {
             assert!(child.try_wait().unwrap().is_none(), "{command} ended by itself");
             let sent = Instant::now();
             send(signal, &child);
-            let code = wait(&mut child);
-            assert!(sent.elapsed() < SOON, "{command} took {:?}", sent.elapsed());
+            (wait(&mut child), sent.elapsed())
+        });
+        for (code, time) in ended {
+            assert!(time < SOON, "{command} took {time:?}");
             // Commands that have nothing to put in order end by the signal.
             let has_rows = command.starts_with("sweep") || command.starts_with("respond");
             assert_eq!(code, has_rows.then_some(130), "{command}");
