@@ -319,27 +319,3 @@ fn rows_edited_meanwhile_are_not_resumed() {
     folder.ends(2, "results resume grid.csv").says("the file has changed since the sweep wrote it");
     assert_eq!(folder.read("grid.csv"), rows);
 }
-
-#[test]
-fn there_may_be_nothing_to_resume() {
-    let folder = Folder::with_grid(&quick(10));
-    folder.ends(2, "results resume grid.csv").says("error: grid.csv: there is no such file\n");
-    folder.ends(2, "results convert grid.csv grid.parquet").says("error: grid.csv: there is no such file\n");
-
-    // A job script may always use the same line.
-    folder.ends(0, "sweep --grid grid.toml");
-    let rows = folder.read("grid.csv");
-    let ended = folder.ends(1, "sweep --grid grid.toml --strict");
-    assert_eq!(
-        ended.stderr,
-        "grid.csv is complete: nothing is left to run; use --restart to run its points again\n"
-    );
-    assert_eq!(folder.read("grid.csv"), rows);
-
-    fs::write(folder.path("grid.toml"), quick(11)).unwrap();
-    folder.ends(2, "sweep --grid grid.toml").says("the grid file differs");
-
-    fs::write(folder.path("alone.csv"), "precious\n").unwrap();
-    folder.ends(2, "sweep --grid grid.toml --out alone.csv").says("error: alone.csv exists already\n");
-    assert_eq!(folder.read("alone.csv"), "precious\n");
-}
