@@ -210,13 +210,3 @@ fn shards_of_several_builds_are_merged_if_asked() {
     ended.says(&format!("the sidecar records build zfed of flap {flap} for these rows\n"));
     assert_eq!(build_of("merged.parquet"), "zfed");
 }
-
-/// flap does not report rows of another build as complete.
-#[test]
-fn results_of_another_build_are_not_gone_on_with() {
-    let folder = folder(10);
-    folder.rewrite_sidecar("whole.csv", |sidecar| sidecar.identity.build = "fed0".to_owned());
-    folder
-        .ends(2, "sweep --grid grid.toml --out whole.csv")
-        .says("whole.csv exists already, with other rows: the rows were computed by build fed0");
-}
