@@ -139,15 +139,6 @@ fn no_more_than_twenty_mistakes_are_shown() {
     assert!(ended.stderr.ends_with(end), "{}", ended.stderr);
 }
 
-#[test]
-fn a_sample_without_parameters_is_a_mistake() {
-    let grid = "preset = \"ozaki2018-large\"\n[sample]\nmethod = \"sobol\"\nn = 8\n[sample.parameters]\n";
-    let folder = Folder::with_grid(grid);
-    for command in ["check grid.toml", "sweep --grid grid.toml"] {
-        folder.ends(2, command).says("grid.toml:5:9\n");
-    }
-}
-
 /// A file of some kilobytes that decompresses to gigabytes without a line end.
 #[test]
 fn a_small_file_does_not_fill_the_memory() {
