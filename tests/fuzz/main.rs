@@ -8,7 +8,6 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use mutate::Mutator;
-use targets::TARGETS;
 
 /// Number of changed inputs per target.
 const CHANGES: usize = 8000;
@@ -30,19 +29,31 @@ fn corpus(name: &str) -> Vec<Vec<u8>> {
     paths.iter().map(|path| fs::read(path).expect("a readable file")).collect()
 }
 
-#[test]
-fn no_input_is_too_odd() {
-    for (name, target) in TARGETS {
-        let corpus = corpus(name);
-        assert!(!corpus.is_empty(), "{name}");
-        for input in &corpus {
-            target(input);
-        }
-        let mut mutator = Mutator::new(&corpus);
-        for _ in 0..CHANGES {
-            target(&mutator.next());
-        }
+/// Runs the target `name` on its corpus and on changed inputs.
+fn run(name: &str, target: fn(&[u8])) {
+    let corpus = corpus(name);
+    assert!(!corpus.is_empty(), "{name}");
+    for input in &corpus {
+        target(input);
     }
+    let mut mutator = Mutator::new(&corpus);
+    for _ in 0..CHANGES {
+        target(&mutator.next());
+    }
+}
+
+/// Declares a test for each target. The name of a target is also the name of its corpus.
+macro_rules! test_targets {
+    ($($name:ident),*) => { $(
+        #[test]
+        fn $name() {
+            super::run(stringify!($name), super::targets::$name);
+        }
+    )* };
+}
+
+mod no_input_is_too_odd {
+    test_targets!(grid, units, expression, outline, record, journal, sidecar);
 }
 
 /// Every input of the corpus must be valid. Changes of invalid inputs would test little.

@@ -12,20 +12,6 @@ use flap_sweep::notation::expression::{Expression, Meaning, Scope};
 use flap_sweep::notation::units;
 use xxhash_rust::xxh3::xxh3_64;
 
-/// The name of a target, which is also the name of its corpus, and its function.
-pub(crate) type Target = (&'static str, fn(&[u8]));
-
-/// All targets.
-pub(crate) const TARGETS: [Target; 7] = [
-    ("grid", grid),
-    ("units", units),
-    ("expression", expression),
-    ("outline", outline),
-    ("record", record),
-    ("journal", journal),
-    ("sidecar", sidecar),
-];
-
 /// For any text, the parser returns a plan whose points can be computed, or a list of mistakes with valid places.
 pub(crate) fn grid(bytes: &[u8]) {
     let Ok(text) = str::from_utf8(bytes) else { return };
