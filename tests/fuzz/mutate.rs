@@ -1,7 +1,7 @@
 //! Changes of inputs, which are the same in every run.
 
 /// Pieces of text with a meaning in the languages under test.
-const PIECES: [&str; 40] = [
+const PIECES: [&str; 52] = [
     "\n",
     "\"",
     "'",
@@ -42,6 +42,18 @@ const PIECES: [&str; 40] = [
     "[[zip]]\n",
     "resonance",
     "µN·m/rad",
+    "\"\"\"",
+    "]]",
+    "* 1e300",
+    "1e999",
+    "mean = 0",
+    "to = 1",
+    "n = 2",
+    "step = 0",
+    "wing_length",
+    " V",
+    "\\u00b5",
+    "\u{feff}",
 ];
 
 /// Makes inputs by changing inputs of a corpus.

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use flap_core::drive::Repeat;
+use flap_core::parameter::Kind;
 use flap_core::simulate::all;
 use flap_sweep::files::record::{self, Record};
 use flap_sweep::files::sidecar::Sidecar;
@@ -10,18 +11,18 @@ use flap_sweep::files::{journal, outline};
 use flap_sweep::grid;
 use flap_sweep::notation::expression::{Expression, Meaning, Scope};
 use flap_sweep::notation::units;
+use flap_sweep::plan::{Admission, Plan};
 use xxhash_rust::xxh3::xxh3_64;
 
-/// For any text, the parser returns a plan whose points can be computed, or a list of mistakes with valid places.
+/// For any text, the parser returns a plan whose points can be computed, or a list of mistakes with valid places. The
+/// values of each point that is run are allowed.
 pub(crate) fn grid(bytes: &[u8]) {
     let Ok(text) = str::from_utf8(bytes) else { return };
     match grid::parse("grid.toml", text, all()) {
         Ok(plan) => {
             for index in [0, plan.len() / 2, plan.len().saturating_sub(1)] {
                 if index < plan.len() {
-                    let point = plan.point(index);
-                    assert_eq!(point.values.len(), plan.parameters().len());
-                    plan.judge(&point.values);
+                    check_point(&plan, &plan.point(index).values);
                 }
             }
         }
@@ -29,8 +30,31 @@ pub(crate) fn grid(bytes: &[u8]) {
             assert!(!mistakes.is_empty());
             for mistake in mistakes.iter() {
                 assert!(text.get(mistake.span.clone()).is_some(), "{mistake}");
+                for related in &mistake.related {
+                    assert!(text.get(related.span.clone()).is_some(), "{mistake}: {:?}", related.span);
+                }
             }
         }
+    }
+}
+
+fn check_point(plan: &Plan, values: &[f64]) {
+    assert_eq!(values.len(), plan.parameters().len());
+    let columns = plan.rows().columns().len();
+    let mut measures = vec![f64::NAN; columns];
+    plan.add_own_measures(values, &mut measures);
+    assert_eq!(measures.len(), columns + plan.measures().len());
+    if plan.judge(values) != Admission::Runs {
+        return;
+    }
+    let is_searched = |name: &str| plan.resonance().is_some() && name == "drive_frequency";
+    for (parameter, &value) in plan.parameters().iter().zip(values) {
+        let is_allowed = match parameter.kind {
+            Kind::Number(range) => range.contains(value),
+            Kind::Following(range, _) => value.is_nan() || range.contains(value),
+            Kind::Choice(options) => (0..options.len()).any(|option| option as f64 == value),
+        };
+        assert!(is_allowed || is_searched(parameter.name), "{} is {value}", parameter.name);
     }
 }
 

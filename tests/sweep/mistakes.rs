@@ -1,6 +1,5 @@
 //! Grid files with mistakes, and the messages about the mistakes.
 
-mod any;
 mod sample;
 mod syntax;
 

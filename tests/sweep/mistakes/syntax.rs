@@ -1,6 +1,7 @@
 //! Files that are not TOML.
 
 use super::check;
+use crate::fake::MODELS;
 
 #[test]
 fn values() {
@@ -76,4 +77,18 @@ arms = ["axis"]
   help: put commas between the values of a list, and ] after the last
 ",
     );
+}
+
+#[test]
+fn deep_nesting_is_refused() {
+    let deep = |piece: &str| piece.repeat(50_000);
+    let texts = [
+        format!("a = {}1{}", deep("["), deep("]")),
+        format!("a = {}1{}", deep("{ a = "), deep(" }")),
+        format!("{}a = 1", deep("a.")),
+        format!("[{}a]", deep("a.")),
+    ];
+    for text in texts {
+        assert!(flap_sweep::grid::parse("grid.toml", &text, &MODELS).is_err());
+    }
 }
