@@ -63,10 +63,16 @@ fn gradient(model: &dyn Simulator, values: &[f64], row: &Row, indices: &[usize])
     model.motions().unwrap().gradient(&run, &row.state, &changes).unwrap()
 }
 
-/// Derivatives of each measure with respect to the relative change of a parameter, by Richardson extrapolation. The
-/// extrapolation uses two-sided differences of converged orbits.
-fn differences(model: &dyn Simulator, values: &[f64], state: &[f64], index: usize) -> Option<Vec<f64>> {
-    let designs = [1.0, -1.0, 0.5, -0.5, 0.25, -0.25].map(|share| moved(values, index, share * STEP));
+/// Derivatives of each measure with respect to the relative change of each of the parameters `indices`, by Richardson
+/// extrapolation. The extrapolation uses two-sided differences of converged orbits.
+fn differences(
+    model: &dyn Simulator,
+    values: &[f64],
+    state: &[f64],
+    indices: &[usize],
+) -> Option<Vec<Vec<f64>>> {
+    let shares = [1.0, -1.0, 0.5, -0.5, 0.25, -0.25];
+    let designs = indices.iter().flat_map(|&index| shares.map(|share| moved(values, index, share * STEP)));
     // From the orbit, lest motions from rest settle on another.
     let points = (0..).zip(designs);
     let points: Vec<Point> =
@@ -75,14 +81,16 @@ fn differences(model: &dyn Simulator, values: &[f64], state: &[f64], index: usiz
     if !rows.iter().all(|row| row.status == Status::Periodic) {
         return None;
     }
-    let column = |j: usize| {
-        let m = [0, 1, 2, 3, 4, 5].map(|i| rows[i].measures[j]);
-        let difference = |i: usize, share: f64| (m[2 * i] - m[2 * i + 1]) / (2.0 * share * STEP);
+    let column = |rows: &[Row], j: usize| {
+        let difference = |i: usize, share: f64| {
+            (rows[2 * i].measures[j] - rows[2 * i + 1].measures[j]) / (2.0 * share * STEP)
+        };
         let [wide, middle, narrow] = [difference(0, 1.0), difference(1, 0.5), difference(2, 0.25)];
         let [first, second] = [(4.0 * middle - wide) / 3.0, (4.0 * narrow - middle) / 3.0];
         (16.0 * second - first) / 15.0
     };
-    Some((0..rows[0].measures.len()).map(column).collect())
+    let columns = 0..rows[0].measures.len();
+    Some(rows.chunks(shares.len()).map(|rows| columns.clone().map(|j| column(rows, j)).collect()).collect())
 }
 
 /// Some of `numbers`: the first two numbers, which belong to the drive, and random others of `numbers`.
@@ -113,8 +121,7 @@ fn derivatives_are_those_of_converged_orbits() {
             let indices = some(&numbers(model, values), &mut random);
             let found = gradient(model, values, row, &indices);
             let folded = found.slopes.iter().flatten().any(|slope| slope == &Err(NoSlope::Fold));
-            let exact: Option<Vec<Vec<f64>>> =
-                indices.iter().map(|&index| differences(model, values, &row.state, index)).collect();
+            let exact = differences(model, values, &row.state, &indices);
             let Some(exact) = exact.filter(|_| !folded) else { continue };
             drawn += 1;
             for (j, column) in model.columns().iter().enumerate() {
