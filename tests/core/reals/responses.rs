@@ -226,9 +226,12 @@ fn compare<M: Model<4>>(model: &M, preset: &str, backend: Backend, crossings: u3
     }
 }
 
+/// Backends with the same arithmetic give the same bits, see `ensemble` and `gradient`.
 #[test]
 fn responses_multipliers_and_derivatives_are_those_of_dual_numbers() {
-    for backend in Backend::available() {
+    let mut backends = Backend::available();
+    backends.dedup_by_key(|backend| backend.arithmetic());
+    for backend in backends {
         compare(&Bimorph::SINE, "jafferis2016", backend, 0);
         compare(&Bimorph::SINE, "jafferis2016-improved", backend, 0);
         compare(&DirectDrive::SINE, "ozaki2018-small", backend, 2);
