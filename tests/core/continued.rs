@@ -112,38 +112,6 @@ fn a_period_is_what_rows_are_made_of() {
     }
 }
 
-/// Responses agree with differences of motions.
-#[test]
-fn responses_are_derivatives() {
-    for &model in all() {
-        let values = &presets(model)[0];
-        let begin = model.run_point(&PointRun::new(Backend::best(), &SOLVER, values), None).state;
-        let exact = SolverSettings { rtol: 1e-11, atol: 1e-13, ..SOLVER };
-        let period = |begin: &[f64]| {
-            model.motions().unwrap().period(&PointRun::new(Backend::best(), &exact, values), begin).unwrap()
-        };
-        let middle = period(&begin);
-        for j in 0..4 {
-            let change = 1e-5 * middle.scale[j];
-            let [below, above] = [-change, change].map(|change| {
-                let mut begin = begin.clone();
-                begin[j] += change;
-                period(&begin).end
-            });
-            for i in 0..4 {
-                let difference = (above[i] - below[i]) / (2.0 * change);
-                let size = middle.scale[i] / middle.scale[j];
-                let error = (difference - middle.responses[j][i]).abs();
-                assert!(
-                    error < 2e-3 * (size + difference.abs()),
-                    "{}: {i} by {j}: {difference} {error}",
-                    model.name()
-                );
-            }
-        }
-    }
-}
-
 #[test]
 fn subharmonic_orbits_close_and_decay_by_their_multipliers() {
     let solver = SolverSettings { max_cycles: 300, ..SOLVER };
