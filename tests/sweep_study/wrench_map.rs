@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "helpers of tests may panic as tests do")]
 
 use std::num::NonZeroUsize;
+use std::sync::LazyLock;
 
 use flap_core::simulate::{Status, never};
 use flap_sweep::plan::Plan;
@@ -51,12 +52,15 @@ fn map(plan: &Plan, share: f64, threads: usize) -> WrenchMap {
     WrenchMap::of(plan, &values, inputs(plan, share), 400, &options, |_| false).unwrap().unwrap()
 }
 
+/// The map of the whole ranges.
+static MAP: LazyLock<WrenchMap> = LazyLock::new(|| map(&plan(VEHICLE), 1.0, 2));
+
 /// A map agrees with the vehicle's force and torque at points that were not used for the fit.
 #[test]
 fn a_map_agrees_with_other_rows() {
     let plan = plan(VEHICLE);
     let flight = Flight { vehicle: plan.vehicle().unwrap(), solver: plan.solver(), interrupted: &never };
-    let map = map(&plan, 1.0, 2);
+    let map = &*MAP;
     assert_eq!((map.fitted, map.left_out, map.unused.len()), (320, 80, 0));
     assert!(map.r_squared.iter().all(|r_squared| *r_squared > 0.998), "{:?}", map.r_squared);
     assert!(map.warnings().is_empty(), "{:?}", map.warnings());
@@ -92,8 +96,7 @@ fn linear_coefficients_are_derivatives() {
     let names = ["amplitude", "bias", "amplitude_difference", "second_harmonic"];
     let chosen: Vec<Input> = names.iter().map(|name| Input::of(vehicle, name).unwrap()).collect();
     let exact = flight.effectiveness(&plan.point(0).values, &chosen, None).unwrap();
-    let errors = |share: f64| {
-        let map = map(&plan, share, 2);
+    let errors = |map: &WrenchMap| {
         let physical = map.physical();
         let slopes = |component: usize, input: usize| {
             // The derivative at the centre, of which only the amplitude is not zero.
@@ -107,7 +110,7 @@ fn linear_coefficients_are_derivatives() {
             (slopes(component, input) / wanted - 1.0).abs()
         })
     };
-    let (wide, narrow) = (errors(1.0), errors(0.25));
+    let (wide, narrow) = (errors(&MAP), errors(&map(&plan, 0.25, 2)));
     for place in 0..4 {
         assert!(wide[place] < 0.05 && narrow[place] < 0.004, "{place}: {wide:?}, {narrow:?}");
         assert!(narrow[place] < 0.3 * wide[place] || narrow[place] < 1e-4, "{place}: {wide:?}, {narrow:?}");
@@ -117,10 +120,9 @@ fn linear_coefficients_are_derivatives() {
 /// The number of threads does not change a bit.
 #[test]
 fn maps_have_the_same_bits_on_one_and_two_threads() {
-    let plan = plan(VEHICLE);
-    let [one, two] = [1, 2].map(|threads| map(&plan, 1.0, threads));
-    assert_eq!(bits(one.scaled.as_slice()), bits(two.scaled.as_slice()));
-    assert_eq!(bits(&one.largest_error), bits(&two.largest_error));
+    let one = map(&plan(VEHICLE), 1.0, 1);
+    assert_eq!(bits(one.scaled.as_slice()), bits(MAP.scaled.as_slice()));
+    assert_eq!(bits(&one.largest_error), bits(&MAP.largest_error));
 }
 
 /// Rows of designs that cannot exist are counted and named, and a map of too few rows is an error.
