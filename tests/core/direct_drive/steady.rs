@@ -61,7 +61,8 @@ const COLUMNS: [(&str, &str, f64); 22] = [
     ("mode_1_hz", "mode1_Hz", 1.0),
 ];
 
-/// Runs the operating points of a reference table, as `adapt` changes them, and compares the measures.
+/// Runs the operating points of a reference table, as `adapt` changes them, and compares the measures. The electrical
+/// power is the power that the air takes.
 fn compare(path: &str, adapt: impl Fn(&Record, Params) -> Params, rtol: f64, tolerance: f64) {
     let mut largest = (0.0, String::new());
     for record in table(path) {
@@ -80,6 +81,8 @@ fn compare(path: &str, adapt: impl Fn(&Record, Params) -> Params, rtol: f64, tol
         let constants = Constants::derive(&operating_point(&record)).unwrap();
         let strain = constants.strain_per_stroke.abs() * peak[0].max(peak[1]);
         assert_close(measure(&row, "strain_surface_max"), strain, tolerance, &record.name);
+        let audit = measure(&row, "energy_audit");
+        assert!(audit.abs() < 100.0 * rtol, "{}: {audit:e}", record.name);
     }
     println!("{path}, rtol {rtol:.0e}: largest relative error {:.1e} ({})", largest.0, largest.1);
 }
@@ -123,15 +126,6 @@ fn blade_elements_take_fewer_steps() {
     let blade = evals(FlowDirection::Blade);
     println!("right-hand sides per cycle: {uniform:.0} uniform, {blade:.0} blade");
     assert!(blade < 0.97 * uniform, "{blade} against {uniform}");
-}
-
-#[test]
-fn electrical_power_is_what_the_air_takes() {
-    for record in table(STEADY) {
-        let row = run(&operating_point(&record), 1e-8, 1e-8);
-        let audit = measure(&row, "energy_audit");
-        assert!(audit.abs() < 1e-6, "{}: {audit:e}", record.name);
-    }
 }
 
 /// φ_mean = Γ V_0 / k_φ exactly, because the model is symmetric.
