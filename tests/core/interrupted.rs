@@ -1,6 +1,7 @@
 //! Interrupted runs: the runs end at once, and return no incomplete rows.
 
 use std::cell::Cell;
+use std::collections::HashSet;
 
 use flap_core::num::Backend;
 use flap_core::simulate::{
@@ -107,6 +108,8 @@ fn rows_before_an_interruption_are_those_without_one() {
         let solver = SolverSettings { newton, ..solver };
         let jobs = Interrupted::run(model, &solver, points.clone(), |_, rows| rows >= 300);
         assert!((300..2000).contains(&jobs.rows.len()), "{} rows", jobs.rows.len());
+        let indices: HashSet<usize> = jobs.rows.iter().map(|(index, _)| *index).collect();
+        assert_eq!(indices.len(), jobs.rows.len(), "no point has two rows");
         for (index, row) in jobs.rows.iter().step_by(17) {
             let alone = model.run_point(&PointRun::new(Backend::best(), &solver, &points[*index]), None);
             assert_eq!(bits(row), bits(&alone), "point {index}");

@@ -1,7 +1,7 @@
 //! Rows of many points, from lanes.
 
 use flap_core::num::Backend;
-use flap_core::simulate::{Jobs, Point, PointRun, Row, Simulator, SolverSettings, Status};
+use flap_core::simulate::{Point, PointRun, Row, Simulator, SolverSettings, Status, never, run_list};
 
 /// Settings for many points: large tolerances, and few periods for motions that do not settle.
 pub(crate) const QUICK: SolverSettings = SolverSettings {
@@ -16,27 +16,6 @@ pub(crate) const QUICK: SolverSettings = SolverSettings {
     symmetry: true,
     loads: false,
 };
-
-/// Points in a given order, with their rows by index.
-struct Listed<'a> {
-    points: &'a [Point],
-    next: usize,
-    rows: Vec<Option<Row>>,
-}
-
-impl Jobs for Listed<'_> {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        let point = self.points.get(self.next)?.clone();
-        self.next += 1;
-        Some(point)
-    }
-
-    fn done(&mut self, index: u64, row: Row) {
-        let slot = &mut self.rows[index as usize];
-        assert!(slot.is_none(), "point {index} has two rows");
-        *slot = Some(row);
-    }
-}
 
 /// Points at rest.
 fn at_rest(points: &[Vec<f64>]) -> Vec<Point> {
@@ -53,16 +32,14 @@ pub(crate) fn of(
     of_points(model, &at_rest(points), backend, solver)
 }
 
-/// The rows of `points` on the lanes of `backend`, in the order of the indices of `points`.
+/// The rows of `points` on the lanes of `backend`, in the order of `points`.
 pub(crate) fn of_points(
     model: &dyn Simulator,
     points: &[Point],
     backend: Backend,
     solver: &SolverSettings,
 ) -> Vec<Row> {
-    let mut listed = Listed { next: 0, rows: vec![None; points.len()], points };
-    model.run(backend, solver, &mut listed);
-    listed.rows.into_iter().map(|row| row.expect("every point has a row")).collect()
+    run_list(model, backend, solver, points.to_vec(), &never).expect("every point has a row")
 }
 
 /// A row's numbers as bits, so that NaN equals NaN.

@@ -1,7 +1,7 @@
 //! Grids and their rows.
 
 use flap_core::num::Backend;
-use flap_core::simulate::{Jobs, Point, Row, Rows, SolverSettings, all};
+use flap_core::simulate::{Point, Row, Rows, SolverSettings, all, never, run_list};
 use flap_sweep::plan::Plan;
 
 /// The plan of a grid file.
@@ -15,32 +15,10 @@ pub(crate) fn mistakes(grid: &str) -> Vec<String> {
     problems.iter().map(ToString::to_string).collect()
 }
 
-/// Points in order; rows by index.
-struct Listed {
-    points: Vec<Vec<f64>>,
-    next: usize,
-    rows: Vec<Option<Row>>,
-}
-
-impl Jobs for Listed {
-    fn next(&mut self, _idle: bool) -> Option<Point> {
-        let values = self.points.get(self.next)?.clone();
-        self.next += 1;
-        Some(Point::at_rest(self.next as u64 - 1, values))
-    }
-
-    fn done(&mut self, index: u64, row: Row) {
-        let place = &mut self.rows[usize::try_from(index).expect("few points")];
-        assert!(place.is_none(), "point {index} has two rows");
-        *place = Some(row);
-    }
-}
-
 /// The rows of points, on lanes.
 pub(crate) fn rows(what: &dyn Rows, solver: &SolverSettings, points: Vec<Vec<f64>>) -> Vec<Row> {
-    let mut listed = Listed { rows: vec![None; points.len()], points, next: 0 };
-    what.run(Backend::best(), solver, &mut listed);
-    listed.rows.into_iter().map(|row| row.expect("every point has a row")).collect()
+    let points = (0..).zip(points).map(|(index, values)| Point::at_rest(index, values)).collect();
+    run_list(what, Backend::best(), solver, points, &never).expect("every point has a row")
 }
 
 /// The index of a column.
