@@ -4,6 +4,7 @@ use std::ops::Range;
 
 use flap_core::parameter::Parameter;
 use flap_core::piezo::Layer;
+use flap_core::simulate::{Simulator, preset};
 use proptest::prelude::*;
 
 /// Returns the element of `things` at the position of `name` in `names`.
@@ -15,6 +16,16 @@ pub(crate) fn named<T: Clone>(name: &str, names: &[&str], things: &[T]) -> T {
 fn position(table: &[Parameter], name: &str) -> usize {
     let position = table.iter().position(|parameter| parameter.name == name);
     position.unwrap_or_else(|| panic!("no parameter {name}"))
+}
+
+/// A preset with the values `changes`, and its model.
+pub(crate) fn design(name: &str, changes: &[(&str, f64)]) -> (&'static dyn Simulator, Vec<f64>) {
+    let (model, preset) = preset(name).unwrap();
+    let mut values = (preset.values)();
+    for &(name, value) in changes {
+        values[position(model.parameters(), name)] = value;
+    }
+    (model, values)
 }
 
 /// The layer of an actuator whose parameters begin with `name`.

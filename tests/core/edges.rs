@@ -3,19 +3,9 @@
 use flap_core::num::Backend;
 use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, preset};
 
+use crate::by_name::design;
 use crate::data::assert_close;
 use crate::rows;
-
-/// A preset with other values, and its model.
-fn design(name: &str, changes: &[(&str, f64)]) -> (&'static dyn Simulator, Vec<f64>) {
-    let (model, preset) = preset(name).unwrap();
-    let mut values = (preset.values)();
-    for &(name, value) in changes {
-        let index = model.parameters().iter().position(|parameter| parameter.name == name).unwrap();
-        values[index] = value;
-    }
-    (model, values)
-}
 
 fn run(design: &(&'static dyn Simulator, Vec<f64>), rtol: f64) -> Row {
     let solver = SolverSettings { settle_tol: rtol.max(1e-9), ..SolverSettings::default().with_rtol(rtol) };

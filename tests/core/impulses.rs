@@ -9,21 +9,11 @@ use flap_core::model::direct_drive::DirectDrive;
 use flap_core::model::four_bar::FourBar;
 use flap_core::num::Backend;
 use flap_core::ode::Ode;
-use flap_core::simulate::{ImpulseRequest, PointRun, SolverSettings, all, by_name, preset};
+use flap_core::simulate::{ImpulseRequest, PointRun, SolverSettings, all, by_name};
 
 use crate::bimorph::plates_under;
+use crate::by_name::design;
 use crate::probe::modes;
-
-/// The values of a preset with the values of `set`.
-fn values(name: &str, set: &[(&str, f64)]) -> Vec<f64> {
-    let (model, preset) = preset(name).unwrap();
-    let mut values = (preset.values)();
-    for (name, value) in set {
-        let index = model.parameters().iter().position(|parameter| parameter.name == *name).unwrap();
-        values[index] = *value;
-    }
-    values
-}
 
 fn assert_near(actual: f64, expected: f64, distance: f64, what: &str) {
     assert!((actual - expected).abs() <= distance, "{what}: {actual} is not {expected}");
@@ -80,7 +70,7 @@ fn an_impulse_moves_the_pitch_as_a_drive_does() {
 #[test]
 fn unequal_plates_rest_before_an_impulse() {
     for (offset, ratio) in [(0.0, 1.0), (40.0, 1.0), (0.0, 0.8), (-30.0, 1.3)] {
-        let values = values("jafferis2016", &[("drive_offset", offset), ("plate_ratio", ratio)]);
+        let values = design("jafferis2016", &[("drive_offset", offset), ("plate_ratio", ratio)]).1;
         let (c, _, rest) = released(&Bimorph::SINE, &values);
         let plates = plates_under(&c, [120.0, 80.0].map(|volts| Wave::with_rate(volts, 0.0)));
         let driven = Bimorph::SINE.rhs(&c, &plates, 1.0, &[0.0; 4]);
@@ -115,15 +105,15 @@ fn modes_are_those_of_the_equations() {
     }
     let coupled = [("added_mass_factor", 1.0), ("added_inertia_stroke", 0.0), ("force_strain_slope", 0.0)];
     for (name, set) in [("jafferis2016", &coupled[2..]), ("jafferis2016", &coupled)] {
-        let [found, expected] = frequencies(&Bimorph::SINE, &values(name, set), [[0, 2], [1, 3]]);
+        let [found, expected] = frequencies(&Bimorph::SINE, &design(name, set).1, [[0, 2], [1, 3]]);
         (0..2).for_each(|i| assert_near(found[i], expected[i], 1e-4 * expected[i], name));
     }
     for name in ["ozaki2018-large", "ozaki2018-small"] {
-        let [found, expected] = frequencies(&DirectDrive::SINE, &values(name, &[]), [[0, 1], [2, 3]]);
+        let [found, expected] = frequencies(&DirectDrive::SINE, &design(name, &[]).1, [[0, 1], [2, 3]]);
         (0..2).for_each(|i| assert_near(found[i], expected[i], 1e-4 * expected[i], name));
     }
     for name in ["arabagi2013-75hz", "arabagi2013-30hz"] {
-        let [found, expected] = frequencies(&FourBar::SINE, &values(name, &[]), [[0, 1], [2, 3]]);
+        let [found, expected] = frequencies(&FourBar::SINE, &design(name, &[]).1, [[0, 1], [2, 3]]);
         (0..2).for_each(|i| assert_near(found[i], expected[i], 1e-4 * expected[i], name));
     }
 }
@@ -131,7 +121,7 @@ fn modes_are_those_of_the_equations() {
 #[test]
 fn impulses_that_mean_nothing_are_refused() {
     let model = by_name("bimorph").unwrap();
-    let values = values("jafferis2016", &[]);
+    let values = design("jafferis2016", &[]).1;
     let good = ImpulseRequest { stroke_rate: 1.0, duration: 0.01, intervals: 10 };
     for (request, reason) in [
         (ImpulseRequest { stroke_rate: 0.0, ..good }, "finite and not zero, not 0 rad/s"),
@@ -154,7 +144,7 @@ fn impulses_that_mean_nothing_are_refused() {
 #[test]
 fn a_free_motion_does_not_depend_on_how_it_is_sampled() {
     let model = by_name("direct-drive").unwrap();
-    let values = values("ozaki2018-large", &[]);
+    let values = design("ozaki2018-large", &[]).1;
     let solver = SolverSettings { rtol: 1e-9, atol: 1e-11, ..SolverSettings::default() };
     let run = |intervals| {
         let request = ImpulseRequest { stroke_rate: 200.0, duration: 0.05, intervals };

@@ -8,6 +8,7 @@ use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, SolverSettings, Status, preset};
 
+use crate::by_name::design;
 use crate::data::assert_close;
 
 /// An instant of a motion, its load, and its signals.
@@ -42,15 +43,6 @@ fn instants<M: Model<4>>(
     });
     let at = at.collect();
     (c, at)
-}
-
-fn values(name: &str, changes: &[(&str, f64)]) -> Vec<f64> {
-    let (model, preset) = preset(name).unwrap();
-    let mut values = (preset.values)();
-    for (name, value) in changes {
-        values[Parameter::index(model.parameters(), name).unwrap()] = *value;
-    }
-    values
 }
 
 /// Integrals over the span by Simpson's rule. `strip` returns force along the stroke axis, force against the stroke,
@@ -91,7 +83,7 @@ fn sizes<S: SignalSet>(at: &[At<S>]) -> [f64; 2] {
 #[test]
 fn the_load_of_the_four_bar_is_that_of_its_strips() {
     for arms in [0.0, 1.0] {
-        let values = values("arabagi2013-75hz", &[("arms", arms), ("strips", 32.0)]);
+        let values = design("arabagi2013-75hz", &[("arms", arms), ("strips", 32.0)]).1;
         let p = four_bar::Params::from_values(&values);
         let side = |_: &_, y: &[f64; 4], _: &[f64; 4]| y[1].tan().signum();
         let (_, at) = instants(&FourBar::SINE, &values, side);
@@ -160,7 +152,7 @@ fn the_load_of_the_direct_drive_is_that_of_its_strips() {
     for (i, station) in stations.iter().enumerate() {
         changes.push((station, chord(0.1 * i as f64)));
     }
-    let values = values("ozaki2018-large", &changes);
+    let values = design("ozaki2018-large", &changes).1;
     let p = direct_drive::Params::from_values(&values);
     let offset = p.wing_offset.unwrap_or(0.5 * p.actuator_length);
     let mid = p.wing_length * 0.5 + offset;
@@ -205,7 +197,7 @@ fn the_load_of_the_direct_drive_is_that_of_its_strips() {
 /// equation of motion (2).
 #[test]
 fn the_load_of_the_bimorph_does_its_work() {
-    let values = values("jafferis2016", &[]);
+    let values = design("jafferis2016", &[]).1;
     let p = bimorph::Params::from_values(&values);
     let (_, at) = instants(&Bimorph::SINE, &values, |_, _, _| 1.0);
     let sizes = sizes(&at);

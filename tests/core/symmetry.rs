@@ -4,6 +4,7 @@ use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Row, Simulator, SolverSettings, Status, preset};
 
+use crate::by_name::design;
 use crate::robustness;
 use crate::rows;
 
@@ -20,16 +21,6 @@ fn both(model: &dyn Simulator, designs: &[Vec<f64>], rtol: f64) -> [Vec<Row>; 2]
         let solver = SolverSettings { settle_tol: rtol, ..solver(symmetry).with_rtol(rtol) };
         rows::of(model, designs, Backend::best(), &solver)
     })
-}
-
-/// A preset with some of its parameters changed.
-fn changed(name: &str, changes: &[(&str, f64)]) -> (&'static dyn Simulator, Vec<f64>) {
-    let (model, preset) = preset(name).unwrap();
-    let mut values = (preset.values)();
-    for (parameter, value) in changes {
-        values[Parameter::index(model.parameters(), parameter).unwrap()] = *value;
-    }
-    (model, values)
 }
 
 /// The size of each measure of a row: the largest magnitude among the measures with the same unit. In a row, the loads
@@ -75,7 +66,7 @@ fn symmetric_orbits_have_the_measures_of_their_whole_periods() {
         ("ozaki2018-small", &[("stroke_mode", 1.0), ("stroke_amplitude", 0.6)]),
     ];
     for (name, changes) in cases {
-        let (model, values) = changed(name, changes);
+        let (model, values) = design(name, changes);
         let [half, whole] = both(model, &[values], 1e-8).map(|mut rows| rows.remove(0));
         assert_eq!((half.status, whole.status), (Status::Periodic, Status::Periodic), "{name} {changes:?}");
         // The edges of a square wave take most steps of a bimorph, and jumps of the map decide how often it is integrated.
@@ -105,11 +96,8 @@ fn symmetric_orbits_have_the_measures_of_their_whole_periods() {
 /// A constant part of the voltage that does not move the stroke still contributes power, so the period is not halved.
 #[test]
 fn a_bias_without_force_has_power() {
-    let (model, preset) = preset("ozaki2018-large").unwrap();
-    let mut values = (preset.values)();
-    for (name, value) in [("piezo_coefficient", 0.0), ("dielectric_loss", 0.15), ("drive_bias", 50.0)] {
-        values[Parameter::index(model.parameters(), name).unwrap()] = value;
-    }
+    let changes = [("piezo_coefficient", 0.0), ("dielectric_loss", 0.15), ("drive_bias", 50.0)];
+    let (model, values) = design("ozaki2018-large", &changes);
     let place = model.columns().iter().position(|column| column.name == "power_dielectric_mean_mw").unwrap();
     let [halved, whole] = [true, false].map(|symmetry| {
         let row = model.run_point(&PointRun::new(Backend::best(), &solver(symmetry), &values), None);
@@ -133,7 +121,7 @@ fn other_points_have_the_same_rows() {
         ("arabagi2013-30hz", &[("stroke_mode", 1.0)]),
     ];
     for (name, changes) in cases {
-        let (model, values) = changed(name, changes);
+        let (model, values) = design(name, changes);
         let [half, whole] = both(model, &[values], 1e-6).map(|mut rows| rows.remove(0));
         assert_eq!(format!("{half:?}"), format!("{whole:?}"), "{name} {changes:?}");
     }
