@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{Folder, VEHICLE, WINGS};
+use crate::support::{Folder, VEHICLE, WINGS, near};
 
 /// The lines of the matrix: the name of each input, its value, and the change of force and torque.
 fn matrix(folder: &Folder, arguments: &str) -> Vec<(String, f64, [f64; 6])> {
@@ -13,10 +13,6 @@ fn matrix(folder: &Folder, arguments: &str) -> Vec<(String, f64, [f64; 6])> {
         (cells[0].to_owned(), numbers[0], core::array::from_fn(|i| numbers[i + 1]))
     };
     text.lines().skip(1).map(line).collect()
-}
-
-fn near(found: f64, wanted: f64, share: f64) {
-    assert!((found - wanted).abs() <= share * wanted.abs(), "{found}, not {wanted}");
 }
 
 /// If an input is almost zero, the change is a share of its typical size. A share of the input itself would be lost in

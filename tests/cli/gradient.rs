@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::Folder;
+use crate::support::{Folder, numbers};
 
 const GRID: &str = r#"
 preset = "ozaki2018-large"
@@ -28,13 +28,6 @@ settle_tol = 1e-9
 of = ["lift_mean_mn", "stroke_lag_deg", "lift_per_stroke"]
 with_respect_to = ["hinge_stiffness", "drive_frequency", "drive_voltage_pp"]
 "#;
-
-/// The numbers of the column `name` of a table of results, without cells that are not numbers.
-fn numbers(csv: &str, name: &str) -> Vec<f64> {
-    let mut lines = csv.lines().map(|line| line.split(','));
-    let place = lines.next().unwrap().position(|column| column == name).unwrap_or_else(|| panic!("{name}"));
-    lines.map(|mut cells| cells.nth(place).unwrap().parse().unwrap()).collect()
-}
 
 /// `flap check` estimates the size of the rows with the columns of derivatives.
 #[test]

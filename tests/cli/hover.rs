@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{Folder, WINGS};
+use crate::support::{Folder, WINGS, column, near, numbers};
 
 /// The robot of the manual, up to the table `[vehicle]`, to which each test adds keys.
 const HEAD: &str = "\
@@ -22,21 +22,6 @@ body_inertia_roll = 1.5e-9
 body_inertia_pitch = 1.5e-9
 body_inertia_yaw = 0.5e-9
 ";
-
-/// The cells of the column `name` in comma-separated text.
-fn column(text: &str, name: &str) -> Vec<String> {
-    let mut lines = text.lines();
-    let place = lines.next().unwrap().split(',').position(|column| column == name).expect(name);
-    lines.map(|line| line.split(',').nth(place).unwrap().to_owned()).collect()
-}
-
-fn numbers(text: &str, name: &str) -> Vec<f64> {
-    column(text, name).iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()
-}
-
-fn near(found: f64, wanted: f64, share: f64) {
-    assert!((found - wanted).abs() <= share * wanted.abs(), "{found}, not {wanted}");
-}
 
 /// The columns of hover contain the numbers that `flap vehicle` prints. Threads, shards and formats do not change the
 /// bytes.

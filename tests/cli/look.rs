@@ -4,7 +4,7 @@ use std::fs;
 
 use serde_json::Value;
 
-use crate::support::{Folder, frequencies, quick, start, wait, wait_for_rows};
+use crate::support::{Folder, frequencies, numbers, quick, start, wait, wait_for_rows};
 
 /// A grid with two axes. Some of its points do not settle within `max_cycles` drive periods.
 const GRID: &str = "\
@@ -34,12 +34,6 @@ fn cells(text: &str) -> Vec<Vec<String>> {
     text.lines().map(|line| line.split(',').map(str::to_owned).collect()).collect()
 }
 
-/// The numbers of a column; NaN for empty cells.
-fn column(rows: &[Vec<String>], name: &str) -> Vec<f64> {
-    let place = rows[0].iter().position(|known| known == name).unwrap();
-    rows[1..].iter().map(|row| row[place].parse().unwrap_or(f64::NAN)).collect()
-}
-
 /// The command's JSON.
 fn json(folder: &Folder, arguments: &str) -> Value {
     serde_json::from_str(&folder.ends(0, &format!("{arguments} --format json")).stdout).unwrap()
@@ -48,26 +42,26 @@ fn json(folder: &Folder, arguments: &str) -> Value {
 #[test]
 fn the_best_rows_come_first() {
     let folder = periodic();
-    let file = cells(&folder.read("rows.csv"));
-    let mut lift = column(&file, "lift_mean_mn");
+    let file = folder.read("rows.csv");
+    let mut lift = numbers(&file, "lift_mean_mn");
     let top = folder.ends(0, "top rows.csv --by lift_mean_mn -n 4 --format csv --columns cycles");
     top.says("4 rows with the largest lift_mean_mn of 30 periodic rows\n");
     let best = cells(&top.stdout);
     assert_eq!(best[0], ["point", "hinge_stiffness", "drive_frequency", "lift_mean_mn", "cycles", "status"]);
     lift.sort_by(|a, b| b.total_cmp(a));
-    assert_eq!(column(&best, "lift_mean_mn"), lift[..4]);
+    assert_eq!(numbers(&top.stdout, "lift_mean_mn"), lift[..4]);
     // Cells are those of the file.
-    let point: usize = best[1][0].parse().unwrap();
-    assert!(best[1].iter().all(|cell| file[point + 1].contains(cell)), "{best:?}");
+    let (rows, point) = (cells(&file), best[1][0].parse::<usize>().unwrap());
+    assert!(best[1].iter().all(|cell| rows[point + 1].contains(cell)), "{best:?}");
 
     // Of power, less is better, unless it is asked for otherwise.
-    let mut power = column(&file, "power_mean_mw");
+    let mut power = numbers(&file, "power_mean_mw");
     power.sort_by(f64::total_cmp);
     let least = folder.ends(0, "top rows.csv --by power_mean_mw -n 2 --format csv");
     least.says("2 rows with the smallest power_mean_mw");
-    assert_eq!(column(&cells(&least.stdout), "power_mean_mw"), power[..2]);
+    assert_eq!(numbers(&least.stdout, "power_mean_mw"), power[..2]);
     let most = folder.ends(0, "top rows.csv --by power_mean_mw -n 1 --aim max --format csv");
-    assert_eq!(column(&cells(&most.stdout), "power_mean_mw"), power[29..]);
+    assert_eq!(numbers(&most.stdout, "power_mean_mw"), power[29..]);
     assert_eq!(cells(&folder.ends(0, "top rows.csv --by cycles --format csv").stdout).len(), 11, "ten rows");
     folder.ends_with(0, &["top", "rows.csv", "--by", " cycles"]);
     assert_eq!(cells(&folder.ends(0, "top rows.csv --by cycles -n 99 --format csv").stdout).len(), 31);
@@ -128,8 +122,8 @@ fn only_periodic_rows_are_ranked_unless_all_are_asked_for() {
 #[test]
 fn conditions_choose_rows() {
     let folder = periodic();
-    let file = cells(&folder.read("rows.csv"));
-    let (stiffness, power) = (column(&file, "hinge_stiffness"), column(&file, "power_mean_mw"));
+    let file = folder.read("rows.csv");
+    let (stiffness, power) = (numbers(&file, "hinge_stiffness"), numbers(&file, "power_mean_mw"));
     let mut sorted = power.clone();
     sorted.sort_by(f64::total_cmp);
     let middle = sorted[15];
@@ -231,7 +225,7 @@ fn columns_that_cannot_be_ranked_are_named() {
 #[test]
 fn percentiles_are_those_of_the_rows() {
     let folder = swept(&frequencies(41));
-    let mut lift = column(&cells(&folder.read("rows.csv")), "lift_mean_mn");
+    let mut lift = numbers(&folder.read("rows.csv"), "lift_mean_mn");
     lift.sort_by(f64::total_cmp);
     let described = folder.ends(0, "describe rows.csv --columns lift_mean_mn --format csv").stdout;
     let rows = cells(&described);
@@ -288,8 +282,8 @@ fn rows_of_every_status_belong_to_an_axis() {
 #[test]
 fn the_best_value_of_each_axis_is_told() {
     let folder = periodic();
-    let file = cells(&folder.read("rows.csv"));
-    let lift = column(&file, "lift_mean_mn");
+    let file = folder.read("rows.csv");
+    let lift = numbers(&file, "lift_mean_mn");
     let mut order: Vec<usize> = (0..30).collect();
     order.sort_by(|a, b| lift[*b].total_cmp(&lift[*a]));
     let best = order[0];
@@ -302,7 +296,7 @@ fn the_best_value_of_each_axis_is_told() {
     let axes = described["axes"].as_array().unwrap();
     assert_eq!(axes.len(), 2);
     for axis in axes {
-        let values = column(&file, axis["axis"].as_str().unwrap());
+        let values = numbers(&file, axis["axis"].as_str().unwrap());
         assert_eq!(axis["best"].as_f64(), Some(values[best]));
         let tenth: Vec<f64> = order[..3].iter().map(|row| values[*row]).collect();
         let ends = [f64::min, f64::max].map(|choose| tenth.iter().copied().reduce(choose));
@@ -373,7 +367,7 @@ fn words_are_counted() {
     let grid =
         GRID.replace("max_cycles = 20\nnewton = false\n", "") + "[measure]\nstrong = \"lift_mean_mn > 2\"\n";
     let folder = swept(&grid);
-    let lift = column(&cells(&folder.read("rows.csv")), "lift_mean_mn");
+    let lift = numbers(&folder.read("rows.csv"), "lift_mean_mn");
     let strong = lift.iter().filter(|lift| **lift > 2.0).count();
     assert!(strong > 0 && strong < 30);
     let counts = &json(&folder, "describe rows.csv --columns strong")["words"][0]["counts"];

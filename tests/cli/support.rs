@@ -143,6 +143,26 @@ impl Ended {
     }
 }
 
+/// The cells of the column `name` of comma-separated text.
+#[track_caller]
+pub(crate) fn column(text: &str, name: &str) -> Vec<String> {
+    let mut lines = text.lines();
+    let place = lines.next().unwrap().split(',').position(|column| column == name).expect(name);
+    lines.map(|line| line.split(',').nth(place).unwrap().to_owned()).collect()
+}
+
+/// The numbers of a column; NaN for other cells.
+#[track_caller]
+pub(crate) fn numbers(text: &str, name: &str) -> Vec<f64> {
+    column(text, name).iter().map(|cell| cell.parse().unwrap_or(f64::NAN)).collect()
+}
+
+/// Fails the test if the numbers differ by more than a share of the wanted number.
+#[track_caller]
+pub(crate) fn near(found: f64, wanted: f64, share: f64) {
+    assert!((found - wanted).abs() <= share * wanted.abs(), "{found}, not {wanted}");
+}
+
 /// A grid of `points` drive frequencies from 60 Hz, a tenth of a hertz apart.
 pub(crate) fn frequencies(points: u64) -> String {
     let last = 600 + points - 1;

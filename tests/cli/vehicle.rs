@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::fs;
 
-use crate::support::{Folder, VEHICLE};
+use crate::support::{Folder, VEHICLE, numbers};
 #[cfg(unix)]
 use crate::support::{send, sweep_until, wait};
 
@@ -19,28 +19,20 @@ fn folder() -> Folder {
     Folder::with_grid(&format!("{VEHICLE}{AXES}"))
 }
 
-/// The column of results as numbers.
-fn column(folder: &Folder, file: &str, name: &str) -> Vec<f64> {
-    let text = folder.read(file);
-    let mut lines = text.lines();
-    let place = lines.next().unwrap().split(',').position(|column| column == name).expect(name);
-    lines.map(|line| line.split(',').nth(place).unwrap().parse().unwrap_or(f64::NAN)).collect()
-}
-
 #[test]
 fn rows_have_force_torque_and_the_wings() {
     let folder = folder();
     folder.ends(0, "sweep grid.toml --out all.csv");
-    let [roll, lift] = ["torque_roll_unm", "force_up_mn"].map(|name| column(&folder, "all.csv", name));
+    let rows = folder.read("all.csv");
+    let [roll, lift] = ["torque_roll_unm", "force_up_mn"].map(|name| numbers(&rows, name));
     assert_eq!(roll.len(), 30);
     // Less drive on the left lowers the left side.
     assert!(roll[2] < -1.0 && roll[27].abs() < 1e-3, "{roll:?}");
-    let ratio = column(&folder, "all.csv", "lift_to_weight");
+    let ratio = numbers(&rows, "lift_to_weight");
     assert!((ratio[0] - lift[0] * 1e-3 / (85e-6 * 9.80665)).abs() < 1e-12);
-    let [efficiency, power] =
-        ["efficiency_gf_per_w", "power_mean_mw"].map(|name| column(&folder, "all.csv", name));
+    let [efficiency, power] = ["efficiency_gf_per_w", "power_mean_mw"].map(|name| numbers(&rows, name));
     assert!((efficiency[0] / (lift[0] / 9.80665 / (power[0] * 1e-3)) - 1.0).abs() < 1e-12);
-    let strokes = ["left_stroke_pp_deg", "right_stroke_pp_deg"].map(|name| column(&folder, "all.csv", name));
+    let strokes = ["left_stroke_pp_deg", "right_stroke_pp_deg"].map(|name| numbers(&rows, name));
     assert!(strokes[0][0] < strokes[1][0]);
 }
 
@@ -97,10 +89,10 @@ fn a_wing_has_a_design_of_its_own() {
     let row = |file: &str| folder.read(&format!("{file}.toml.csv"));
     assert_eq!(row("device"), row("params"));
     assert_eq!(
-        column(&folder, "flat.toml.csv", "torque_roll_unm"),
-        column(&folder, "device.toml.csv", "torque_roll_unm")
+        numbers(&folder.read("flat.toml.csv"), "torque_roll_unm"),
+        numbers(&folder.read("device.toml.csv"), "torque_roll_unm")
     );
-    assert!(column(&folder, "flat.toml.csv", "torque_roll_unm")[0].abs() > 1e-3);
+    assert!(numbers(&folder.read("flat.toml.csv"), "torque_roll_unm")[0].abs() > 1e-3);
     // Results know the device, wherever the file is.
     fs::remove_file(folder.path("worn.toml")).unwrap();
     folder.ends(0, "results rerun device.toml.csv --status periodic --rtol 1e-7 --out again.csv");
@@ -112,7 +104,7 @@ fn the_matrix_of_inputs_is_that_of_derivatives() {
     let gradient = "[params]\ndrive_offset = \"5 V\"\n[gradient]\nof = [\"torque_pitch_unm\"]\nwith_respect_to = [\"drive_offset\"]\n";
     let folder = Folder::with_grid(&format!("{VEHICLE}{gradient}"));
     folder.ends(0, "sweep grid.toml --out rows.csv");
-    let slope = column(&folder, "rows.csv", "d_torque_pitch_unm_per_pct_drive_offset")[0] / 0.05;
+    let slope = numbers(&folder.read("rows.csv"), "d_torque_pitch_unm_per_pct_drive_offset")[0] / 0.05;
     let inputs = "--inputs bias,about_z,about_x,left_plane_pitch";
     let text = folder.ends(0, &format!("vehicle grid.toml {inputs} --format csv")).stdout;
     let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
@@ -305,7 +297,7 @@ fn a_wing_keeps_its_design_when_the_grid_changes() {
     let own = "params = { hinge_stiffness = \"1.4972 uN*m/rad\" }";
     fs::write(folder.path("own.toml"), format!("{}{set}", with(own))).unwrap();
     folder.ends(0, "sweep own.toml --out own.csv");
-    let roll = |file: &str| column(&folder, file, "torque_roll_unm")[0];
+    let roll = |file: &str| numbers(&folder.read(file), "torque_roll_unm")[0];
     assert!((roll("preset.csv") / roll("own.csv") - 1.0).abs() < 1e-6);
     assert!(roll("own.csv").abs() > 1e-2);
     // What reaches no wing is told.
