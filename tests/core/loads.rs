@@ -202,7 +202,7 @@ fn the_load_of_the_bimorph_does_its_work() {
     let (_, at) = instants(&Bimorph::SINE, &values, |_, _, _| 1.0);
     let sizes = sizes(&at);
     for at in &at {
-        let [_, x_dot, psi, psi_dot] = at.y;
+        let [_, x_dot, psi, _] = at.y;
         let [_, x_ddot, _, psi_ddot] = at.dy;
         let ratio = p.transmission_ratio;
         assert_close(at.load.drag_moment * ratio * x_dot, at.signals.power_drag, 1e-9, "power");
@@ -211,7 +211,6 @@ fn the_load_of_the_bimorph_does_its_work() {
             - p.wing_inertia_product * ratio * x_ddot * psi.cos()
             - 0.5 * p.wing_inertia_hinge * (ratio * x_dot).powi(2) * (2.0 * psi).sin();
         assert!((at.load.span_moment - moment).abs() < 1e-9 * sizes[1], "{} {moment}", at.load.span_moment);
-        assert!(psi_dot.is_finite());
     }
 }
 

@@ -70,7 +70,6 @@ fn a_table_replaces_shape_moments() {
         ("rotation_moment", 1.0),
         ("midspan_chord", 1.0),
     ]));
-    assert_eq!(measures("ozaki2018-large", &table).len(), measures("ozaki2018-large", &other).len());
     assert_same(&measures("ozaki2018-large", &other), &measures("ozaki2018-large", &table), 1e-15);
 }
 
