@@ -51,9 +51,14 @@ pub(crate) fn driven(p: &Params, record: &Record) -> Params {
 /// step sizes irregularly. The state at the ends of cycles therefore jitters. The function returns the row with the
 /// smallest tolerance that the point meets despite the jitter.
 fn settled(params: &Params, rtol: f64) -> Row {
+    settled_with(params, &SolverSettings::default().with_rtol(rtol))
+}
+
+/// [`settled`] with other settings.
+fn settled_with(params: &Params, solver: &SolverSettings) -> Row {
     let mut last = None;
-    for settle_tol in [rtol, 10.0 * rtol, 100.0 * rtol, 1000.0 * rtol] {
-        let solver = SolverSettings { rtol, atol: 1e-2 * rtol, settle_tol, ..SolverSettings::default() };
+    for settle_tol in [1.0, 10.0, 100.0, 1000.0].map(|factor| factor * solver.rtol) {
+        let solver = SolverSettings { settle_tol, ..*solver };
         let row = model().run_point(&PointRun::new(Backend::best(), &solver, &params.to_values()), None);
         if row.status == Status::Periodic {
             return row;
