@@ -10,6 +10,7 @@ use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::plan::Plan;
 use flap_sweep::run::{self, RowWriter, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::Layout;
+use temp_dir::TempDir;
 
 use crate::Effort;
 use crate::grid::grid;
@@ -51,7 +52,9 @@ pub(crate) fn print(effort: Effort) {
 fn sweep(plan: &Plan, threads: usize) -> f64 {
     let threads = NonZeroUsize::new(threads).expect("at least one");
     let options = RunOptions { threads, ..RunOptions::default() };
-    let mut sink = CsvSink::new(Layout::of(plan).names(), tempfile::tempfile().expect("a temporary file"));
+    let folder = TempDir::new().expect("a folder");
+    let file = File::create(folder.child("rows.csv")).expect("a file");
+    let mut sink = CsvSink::new(Layout::of(plan).names(), file);
     let begin = Instant::now();
     let mut output = RowWriter::begin(plan, Summary::default(), &mut sink).expect("a header");
     for row in run::rows(plan, &options, 0) {
@@ -63,7 +66,8 @@ fn sweep(plan: &Plan, threads: usize) -> f64 {
 
 /// Seconds that writing all rows takes, and reading them.
 fn file(plan: &Plan, listed: &Listed<'_>) -> io::Result<(f64, f64)> {
-    let mut file: File = tempfile::tempfile()?;
+    let folder = TempDir::new()?;
+    let mut file = File::options().read(true).write(true).create_new(true).open(folder.child("rows.csv"))?;
     let begin = Instant::now();
     let layout = Layout::of(plan);
     let mut sink = CsvSink::new(layout.names(), file.try_clone()?);

@@ -7,6 +7,7 @@ mod grid;
 mod rows;
 
 use core::time::Duration;
+use std::fs::File;
 use std::num::NonZeroUsize;
 
 use criterion::measurement::WallTime;
@@ -17,6 +18,7 @@ use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::{self, RowWriter, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::Layout;
+use temp_dir::TempDir;
 
 use grid::grid;
 use rows::{Rows, read};
@@ -56,7 +58,14 @@ fn files(criterion: &mut Criterion) {
         let empty = || CsvSink::new(Layout::of(&plan).names(), Vec::with_capacity(1 << 20));
         bench.iter_batched_ref(empty, |sink| rows.write(sink), BatchSize::LargeInput);
     });
-    let mut sink = CsvSink::new(Layout::of(&plan).names(), tempfile::tempfile().expect("a temporary file"));
+    let folder = TempDir::new().expect("a folder");
+    let file = File::options()
+        .read(true)
+        .write(true)
+        .create_new(true)
+        .open(folder.child("rows.csv"))
+        .expect("a file");
+    let mut sink = CsvSink::new(Layout::of(&plan).names(), file);
     sink.begin().expect("a header");
     rows.write(&mut sink);
     group.bench_function("read", |bench| bench.iter(|| read(sink.target())));

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use assert_cmd::Command;
 use flap_sweep::files::sidecar::Sidecar;
-use tempfile::TempDir;
+use temp_dir::TempDir;
 
 /// A folder with files, in which the command runs.
 pub(crate) struct Folder(TempDir);
@@ -24,7 +24,7 @@ pub(crate) struct Ended {
 
 impl Folder {
     pub(crate) fn new() -> Folder {
-        Folder(tempfile::tempdir().unwrap())
+        Folder(TempDir::new().unwrap())
     }
 
     /// A folder with the grid file `grid.toml`.

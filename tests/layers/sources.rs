@@ -3,9 +3,11 @@
 use std::fs;
 use std::path::Path;
 
+use temp_dir::TempDir;
+
 /// A folder with these files, and its hash.
 fn hash_of(files: &[(&str, &str)]) -> u64 {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     for (name, text) in files {
         let path = folder.path().join(name);
         fs::create_dir_all(path.parent().expect("it is in the folder")).expect("a folder");

@@ -5,6 +5,7 @@ use std::fs;
 use flap_core::parameter::Kind;
 use flap_sweep::grid;
 use flap_sweep::plan::Plan;
+use temp_dir::TempDir;
 
 use crate::fake::{FLY, MODELS, index, plan};
 
@@ -77,7 +78,7 @@ fn a_changed_parameter_is_the_same_in_all_designs() {
 
 #[test]
 fn devices_are_named_by_their_files_and_recorded_once() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     let write = |name: &str, text: &str| fs::write(folder.path().join(name), text).expect("written");
     write("base.toml", "preset = \"fly\"\n[params]\nwing_area = { value = 3, sd = 1 }\n");
     write("short.toml", "device = \"base.toml\"\n[params]\nwing_area = 1\n");

@@ -7,6 +7,7 @@ use flap_core::simulate;
 use flap_sweep::grid::{self, ReadError};
 use flap_sweep::input::{self, InputError};
 use flap_sweep::notation::units;
+use temp_dir::TempDir;
 
 fn error(path: &Path) -> ReadError {
     grid::read(path, simulate::all()).err().expect("no plan")
@@ -14,7 +15,7 @@ fn error(path: &Path) -> ReadError {
 
 #[test]
 fn a_missing_file() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     let path = folder.path().join("grid.toml");
     let error = error(&path);
     assert!(matches!(error, ReadError::Input { error: InputError::Missing, .. }), "{error:?}");
@@ -23,14 +24,14 @@ fn a_missing_file() {
 
 #[test]
 fn a_folder() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     let error = error(folder.path());
     assert!(matches!(error, ReadError::Input { error: InputError::Folder, .. }), "{error:?}");
 }
 
 #[test]
 fn text_that_is_not_utf8() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     let path = folder.path().join("latin1.toml");
     fs::write(&path, b"preset = \"fly\"\n# \xc3\xa9t\xe9\n").expect("written");
     match error(&path) {
@@ -41,7 +42,7 @@ fn text_that_is_not_utf8() {
 
 #[test]
 fn mistakes_are_named_after_the_file() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     let path = folder.path().join("grid.toml");
     fs::write(&path, "\nprest = 1\n").expect("written");
     let message = error(&path).to_string();
@@ -52,7 +53,7 @@ fn mistakes_are_named_after_the_file() {
 
 #[test]
 fn presets_of_all_models_are_found() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     for preset in simulate::all().iter().flat_map(|model| model.presets()) {
         let path = folder.path().join(preset.name);
         fs::write(&path, format!("preset = \"{}\"", preset.name)).expect("written");
@@ -75,7 +76,7 @@ fn units_of_all_parameters_are_si() {
 /// A parser that tried every line of results as a grid file would take minutes and gigabytes.
 #[test]
 fn results_are_not_grid_files() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     let contents: [(&str, &[u8]); 3] = [
         ("rows.csv", b"point,drive_frequency,status\n0,60.0,periodic\n"),
         ("rows.csv.zst", &[0x28, 0xb5, 0x2f, 0xfd, 0, 0]),
@@ -92,7 +93,7 @@ fn results_are_not_grid_files() {
 
 #[test]
 fn grid_files_have_a_largest_size() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     let path = folder.path().join("grid.toml");
     fs::File::create(&path).and_then(|file| file.set_len(input::MOST_BYTES + 1)).expect("made");
     let error = error(&path);

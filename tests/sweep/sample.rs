@@ -6,6 +6,7 @@ use flap_core::parameter::Invalid;
 use flap_sweep::plan::axes::Values;
 use flap_sweep::plan::sample::{Distribution, Method};
 use flap_sweep::plan::{Admission, Plan};
+use temp_dir::TempDir;
 
 use crate::fake::{MODELS, index, plan};
 
@@ -126,7 +127,7 @@ fn sampled_values_out_of_range_make_a_point_invalid() {
 
 #[test]
 fn points_come_from_a_file_beside_the_grid() {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     let points = "\u{feff}wing_area [mm^2], drive_frequency ,arms,hinge_stiffness\r\n\
                   50, 100, axis, 1e-6\r\n\r\n  54.5,\"0.2 kHz\",printed,1.5 uN*m/rad\n";
     fs::write(folder.path().join("points.csv"), points).expect("a file");
@@ -148,7 +149,7 @@ fn points_come_from_a_file_beside_the_grid() {
 
 /// Messages about a file of points; the places in the messages are places in the file of points.
 fn mistakes_of(points: &str) -> Vec<String> {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     fs::write(folder.path().join("points.csv"), points).expect("a file");
     let name = folder.path().join("grid.toml").display().to_string();
     let grid = "preset = \"fly\"\n[sample]\nmethod = \"file\"\npath = \"points.csv\"\n";

@@ -14,6 +14,7 @@ use flap_sweep::plan::{Along, Plan};
 use flap_sweep::run::{Outcome, RowWriter, RunError, RunOptions, Sink, Summary};
 use flap_sweep::study::response::Responses;
 use flap_sweep::table::layout::Layout;
+use temp_dir::TempDir;
 
 use crate::fake::{Fake, Fault};
 use crate::support::{must_end, options, plan_of};
@@ -123,7 +124,7 @@ fn an_interrupted_response_goes_on_to_the_same_bytes() {
     let model = Fake::leak(Fault::Slow(1.0, Duration::from_micros(200)), 8);
     let plan = curves(model, 2000);
     for name in FILES {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let [whole, out] = ["whole", "out"].map(|folder_name| {
             let folder = folder.path().join(folder_name);
             fs::create_dir(&folder).unwrap();
@@ -150,7 +151,7 @@ fn an_interrupted_response_goes_on_to_the_same_bytes() {
 #[test]
 fn every_format_holds_the_same_rows() {
     let plan = curves(Fake::leak(Fault::None, 8), 100);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = TempDir::new().unwrap();
     let rows: Vec<Vec<String>> = FILES
         .iter()
         .map(|name| {
@@ -173,7 +174,7 @@ fn every_format_holds_the_same_rows() {
 fn a_response_along_other_values_is_another() {
     let model = Fake::leak(Fault::Slow(1.0, Duration::from_micros(200)), 8);
     let plan = curves(model, 2000);
-    let folder = tempfile::tempdir().unwrap();
+    let folder = TempDir::new().unwrap();
     let out = folder.path().join("rows.csv");
     assert!(matches!(run(&plan, &out, Begin::Continue, 10), Ok(Some(_))));
     let along = plan.followed().unwrap().clone();

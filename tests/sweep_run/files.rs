@@ -8,13 +8,14 @@ use flap_sweep::files::disk::empty;
 use flap_sweep::files::output::{CreateError, create};
 use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::run::Summary;
+use temp_dir::TempDir;
 
 use crate::fake::{Fake, Fault};
 use crate::support::{csv, options, plan_of};
 
 #[test]
 fn an_existing_file_is_kept_unless_asked() {
-    let directory = tempfile::tempdir().unwrap();
+    let directory = TempDir::new().unwrap();
     let path = directory.path().join("rows.csv");
     fs::write(&path, "precious").unwrap();
     let error = create(&path, false).unwrap_err();
@@ -28,13 +29,15 @@ fn an_existing_file_is_kept_unless_asked() {
 
 #[test]
 fn an_empty_file_holds_no_results() {
-    let file = tempfile::NamedTempFile::new().unwrap();
-    assert!(create(file.path(), false).is_ok());
+    let directory = TempDir::new().unwrap();
+    let path = directory.child("empty.csv");
+    fs::write(&path, "").unwrap();
+    assert!(create(&path, false).is_ok());
 }
 
 #[test]
 fn a_file_being_written_is_not_overwritten() {
-    let directory = tempfile::tempdir().unwrap();
+    let directory = TempDir::new().unwrap();
     let path = directory.path().join("rows.csv");
     let _first = create(&path, false).unwrap();
     for overwrite in [false, true] {
@@ -45,7 +48,7 @@ fn a_file_being_written_is_not_overwritten() {
 
 #[test]
 fn a_place_that_cannot_be_written_is_named() {
-    let directory = tempfile::tempdir().unwrap();
+    let directory = TempDir::new().unwrap();
     for path in [directory.path().join("missing/rows.csv"), directory.path().to_owned()] {
         let error = create(&path, true).unwrap_err();
         assert!(matches!(error, CreateError::Io { .. }), "{error}");
@@ -68,7 +71,7 @@ fn the_sidecar_tells_where_rows_come_from() {
     let plan = plan_of(Fake::leak(Fault::None, 4), grid);
     let started = "2026-01-02T03:04:05Z".to_owned();
     let mut sidecar = Sidecar::new(&plan, started, &options(2, 10), None);
-    let directory = tempfile::tempdir().unwrap();
+    let directory = TempDir::new().unwrap();
     let path = sidecar_of(&directory.path().join("rows.csv"));
     assert!(path.ends_with("rows.csv.meta.toml"));
 

@@ -16,6 +16,7 @@ use flap_sweep::plan::selection::Shard;
 use flap_sweep::run::identity::Identity;
 use flap_sweep::run::{InvalidPoint, RunError, Sink, Summary, Written};
 use flap_sweep::table::layout::Cell;
+use temp_dir::TempDir;
 
 use crate::fake::{Fake, Fault};
 use crate::support::{csv, options, plan, plan_with, resume};
@@ -87,7 +88,7 @@ fn a_session_goes_on_where_the_last_one_ended() {
         let (text, summary) = csv(&plan, &options(2, 100));
         let summary = summary.unwrap();
         for name in ["rows.csv", "rows.csv.zst"] {
-            let folder = tempfile::tempdir().unwrap();
+            let folder = TempDir::new().unwrap();
             let path = folder.path().join(name);
             assert_eq!(run_to(&mut start(&path, &plan), &plan, Summary::default(), 1), None);
             for stop_at in [200, 256, 300, 512, 700] {
@@ -147,7 +148,7 @@ fn a_session_with_formulas_goes_on_where_the_last_one_ended() {
         assert!(text.lines().eq(header.into_iter().chain(lines.filter(of_shard))), "{selection}");
         assert!(summary.excluded > summary.points / 3 && summary.rows > summary.points / 3);
         assert!(text.contains(",true,") && text.contains(",false,") && text.contains("invalid"));
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let path = folder.path().join("rows.csv");
         let mut stops: Vec<u64> = (1..summary.points).step_by(97).collect();
         let mut session = start(&path, &plan);
@@ -169,7 +170,7 @@ fn a_session_with_formulas_goes_on_where_the_last_one_ended() {
 
 #[test]
 fn a_changed_file_of_points_is_not_resumed() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = TempDir::new().unwrap();
     let [path, points] = ["rows.csv", "points.csv"].map(|name| folder.path().join(name));
     let plan = |sizes: &str| {
         fs::write(&points, format!("size\n{sizes}\n")).unwrap();
@@ -190,7 +191,7 @@ fn a_changed_file_of_points_is_not_resumed() {
 /// After a crash, incomplete text after the last whole line is ignored.
 #[test]
 fn a_torn_last_line_is_dropped() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = TempDir::new().unwrap();
     let path = folder.path().join("rows.csv");
     let plan = plan(Fake::leak(Fault::None, 8), 1000);
     run_to(&mut start(&path, &plan), &plan, Summary::default(), 300);
@@ -214,7 +215,7 @@ fn a_torn_last_line_is_dropped() {
 
 #[test]
 fn checkpoints_read_back() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = TempDir::new().unwrap();
     let path = folder.path().join("journal");
     let plan = plan_with(Fake::leak(Fault::None, 8), 13, FORMULAS);
     let (_, summary) = csv(&plan, &options(2, 100));
@@ -235,7 +236,7 @@ fn checkpoints_read_back() {
 
 #[test]
 fn other_versions_and_machines_do_not_go_on() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = TempDir::new().unwrap();
     let path = folder.path().join("rows.csv");
     let plan = plan(Fake::leak(Fault::None, 8), 1000);
     let ours = Identity::of(&plan, &often().run);
@@ -262,7 +263,7 @@ fn other_versions_and_machines_do_not_go_on() {
 /// If a file is shorter than its journal records, the run continues from the last checkpoint within the file.
 #[test]
 fn lost_rows_are_computed_again() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = TempDir::new().unwrap();
     let path = folder.path().join("rows.csv");
     let plan = plan(Fake::leak(Fault::None, 8), 1000);
     let (text, _) = csv(&plan, &options(2, 100));

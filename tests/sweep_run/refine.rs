@@ -12,6 +12,7 @@ use flap_sweep::refine::replay;
 use flap_sweep::run::Summary;
 use flap_sweep::run::identity::Identity;
 use flap_sweep::table::layout::Layout;
+use temp_dir::TempDir;
 
 use crate::fake::{Fake, Fault};
 use crate::journal::{often, run_to, start};
@@ -101,7 +102,7 @@ fn a_refinement_goes_on_where_the_last_run_ended() {
             vec![300],
             vec![summary.points - 1, summary.points],
         ] {
-            let folder = tempfile::tempdir().unwrap();
+            let folder = TempDir::new().unwrap();
             let path = folder.path().join(name);
             assert_eq!(run_to(&mut start(&path, &plan), &plan, Summary::default(), stops[0]), None);
             for &stop in &stops[1..] {

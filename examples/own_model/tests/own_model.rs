@@ -4,6 +4,8 @@ use std::fs;
 use std::path::Path;
 use std::process::{Command, Output};
 
+use temp_dir::TempDir;
+
 /// Numbers of a separate solver and transcription: `examples/own_model/reference.py`.
 const REFERENCE: &str = include_str!("../../../tests/data/motor_wing.csv");
 
@@ -35,7 +37,7 @@ fn rows(text: &str, columns: &[&str]) -> Vec<Vec<String>> {
 
 /// Runs a sweep of the grid and gives its file.
 fn sweep(grid: &str) -> String {
-    let folder = tempfile::tempdir().expect("a folder");
+    let folder = TempDir::new().expect("a folder");
     fs::write(folder.path().join("grid.toml"), grid).expect("a file");
     flap(folder.path(), &["sweep", "--grid", "grid.toml", "--out", "out.csv"]);
     fs::read_to_string(folder.path().join("out.csv")).expect("rows")
@@ -95,7 +97,7 @@ fn the_grid_of_the_example_is_swept() {
 
 #[test]
 fn impossible_values_are_found_before_anything_runs() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = TempDir::new().unwrap();
     let grid = "preset = \"park2024-5v\"\n[params]\nwing_length = \"-1 mm\"\n";
     fs::write(folder.path().join("grid.toml"), grid).unwrap();
     let output = Command::new(env!("CARGO_BIN_EXE_own-model"))
@@ -124,7 +126,7 @@ fn each_design_is_run_at_its_own_resonance() {
 
 #[test]
 fn responses_are_followed_up_and_down() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = TempDir::new().unwrap();
     let args = ["respond", "park2024-5v", "--along", "drive_frequency", "--set", "spring_stiffness=0.0112"];
     let range = ["--from", "15", "--to", "35", "--step", "1", "--out", "-"];
     let output = flap(folder.path(), &[&args[..], &range[..]].concat());

@@ -188,11 +188,13 @@ pub fn is_same_target(a: &Path, b: &Path) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use temp_dir::TempDir;
+
     use super::*;
 
     #[test]
     fn targets_need_not_be_there() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let path = |name: &str| folder.path().join(name);
         assert!(is_same_target(&path("new.csv"), &path("./new.csv")));
         assert!(!is_same_target(&path("new.csv"), &path("newer.csv")));
@@ -200,7 +202,7 @@ mod tests {
 
     #[test]
     fn a_new_file_takes_the_place_of_an_empty_one_alone() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let path = |name: &str| folder.path().join(name);
         let refusal = |name: &str| create_new(&path(name)).unwrap_err().kind();
         fs::write(path("empty"), "").unwrap();
@@ -221,7 +223,7 @@ mod tests {
     #[cfg(unix)]
     fn links_are_followed_to_their_end() {
         use std::os::unix::fs::symlink;
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let path = |name: &str| folder.path().join(name);
         fs::create_dir(path("sub")).unwrap();
         symlink("sub/second", path("first")).unwrap();

@@ -89,13 +89,14 @@ impl Inputs {
 #[cfg(test)]
 mod tests {
     use std::fs;
+    use temp_dir::TempDir;
 
     use super::*;
 
     #[test]
     #[cfg(unix)]
     fn files_are_recognised_by_any_name() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let path = |name: &str| folder.path().join(name);
         fs::write(path("grid.toml"), "text").unwrap();
         fs::hard_link(path("grid.toml"), path("hard.csv")).unwrap();
@@ -114,7 +115,7 @@ mod tests {
 
     #[test]
     fn what_is_written_beside_results_is_looked_at_too() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let path = |name: &str| folder.path().join(name);
         let written =
             [".csv.meta.toml", ".csv.journal", ".csv.part", ".csv.lock", ".new.csv", ".new.csv.meta.toml"];

@@ -64,11 +64,13 @@ impl Drop for Lock {
 
 #[cfg(test)]
 mod tests {
+    use temp_dir::TempDir;
+
     use super::*;
 
     #[test]
     fn a_lock_is_held_by_one_and_leaves_no_file() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let path = folder.path().join("rows.csv.lock");
         // A process that was killed leaves an empty file.
         fs::write(&path, "").unwrap();
@@ -83,7 +85,7 @@ mod tests {
 
     #[test]
     fn many_processes_hold_it_one_after_the_other() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let (path, held) = (folder.path().join("lock"), folder.path().join("held"));
         let hold_often = || {
             let mut count = 0;
@@ -105,7 +107,7 @@ mod tests {
 
     #[test]
     fn files_of_others_are_neither_locked_nor_removed() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let path = folder.path().join("rows.csv.lock");
         fs::write(&path, "precious").unwrap();
         assert_eq!(Lock::take(&path).unwrap_err().kind(), io::ErrorKind::AlreadyExists);

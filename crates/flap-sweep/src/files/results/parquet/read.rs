@@ -221,6 +221,7 @@ fn number(bytes: &[u8]) -> Option<(u64, &[u8])> {
 #[cfg(test)]
 mod tests {
     use std::fs;
+    use temp_dir::TempDir;
 
     use super::*;
 
@@ -262,7 +263,7 @@ mod tests {
 
     #[test]
     fn a_huge_page_is_refused() {
-        let folder = tempfile::tempdir().unwrap();
+        let folder = TempDir::new().unwrap();
         let path = folder.path().join("pages");
         let largest = usize::try_from(LARGEST_PAGE).unwrap();
         for (size, is_read) in [(largest, true), (largest + 1, false)] {
