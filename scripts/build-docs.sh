@@ -9,9 +9,12 @@
 set -euo pipefail
 cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 
-target=${CARGO_TARGET_DIR:-$PWD/target}
+# An absolute path, for programs that run in other directories.
+target=${CARGO_TARGET_DIR:-target}
+mkdir -p -- "$target/docs"
+target=$(cd -- "$target" && pwd)
+export CARGO_TARGET_DIR=$target
 work=$target/docs
-mkdir -p -- "$work"
 
 # Prose.
 vale=$(command -v vale || true)
@@ -38,13 +41,9 @@ if ! cmp -s "$requirements" "$work/made-from"; then
 fi
 export PATH="$work/env/bin:$PATH"
 
-# The command and the package whose help and docstrings become the reference. Built with the package, it has the dependencies' features
-# of the wheel, so crates are not compiled twice.
-cargo build --quiet --locked -p flap-cli -p flap-py
-rm -rf -- "$work/wheels"
-python -m pip wheel --quiet --disable-pip-version-check --no-cache-dir --no-index --no-deps --no-build-isolation \
-    --config-settings "build-args=--profile dev --locked" --wheel-dir "$work/wheels" ./crates/flap-py
-python -m pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall "$work"/wheels/*.whl
+# The command and the package whose help and docstrings become the reference.
+wheel=$(./scripts/build-dev-wheel.sh)
+python -m pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall "$wheel"
 
 rust=()
 if [[ ${1-} != --no-rust ]]; then

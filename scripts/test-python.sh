@@ -60,19 +60,12 @@ export PATH="$work/bin:$PATH"
 ruff format --quiet --check .
 ruff check --quiet .
 
-# Rows are compared with those of the command. Built with the package, it has the dependencies' features
-# of the wheel, so crates are not compiled twice.
-cargo build --quiet --profile "$profile" --locked -p flap-cli -p flap-py
+FLAPWING_WHEEL=$(./scripts/build-dev-wheel.sh "$profile")
+export FLAPWING_WHEEL
+# Rows are compared with those of the command.
 folder=$profile
 [[ $profile == dev ]] && folder=debug
 export FLAP=${CARGO_TARGET_DIR:-$PWD/target}/$folder/flap
-
-# pip would take the directory's name for a name and a version, and keep every build in its cache.
-rm -rf -- "$work/wheels"
-python -m pip wheel --quiet --disable-pip-version-check --no-cache-dir --no-index --no-deps --no-build-isolation \
-    --config-settings "build-args=--profile $profile --locked" --wheel-dir "$work/wheels" ./crates/flap-py
-FLAPWING_WHEEL=$(echo "$work"/wheels/*.whl)
-export FLAPWING_WHEEL
 export FLAPWING_PACKAGES=$work/packages
 python -m pip install --quiet --disable-pip-version-check --no-index --no-deps --force-reinstall "$FLAPWING_WHEEL"
 
