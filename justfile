@@ -79,7 +79,7 @@ reproduce:
 
 # Benchmarks: elementary functions, right-hand sides, one step, lanes against scalars; sweeps of presets; CSV.
 bench:
-    cargo bench -p flap-core -p flap-sweep
+    cargo bench -p flap-core -p flap-sweep --bench ensemble --bench step --bench sweep
 
 # With `--work settled` and `--work responses` motions settle, as those of a sweep do.
 # flap beside other solvers on the same equations, in turn on one core (benches/peers): `just peers --help`.

@@ -10,7 +10,7 @@ trap 'rm -rf -- "$folder"' EXIT
 python3 -m venv "$folder/env"
 "$folder/env/bin/python" -m pip install --quiet --disable-pip-version-check "$(grep '^maturin==' scripts/release-requirements.txt)"
 rm -f dist/flapwing-*.tar.gz
-"$folder/env/bin/maturin" sdist --manifest-path crates/flap-py/Cargo.toml --out dist 2>/dev/null
+"$folder/env/bin/maturin" sdist --manifest-path crates/flap-py/Cargo.toml --out dist
 tar -xzf dist/flapwing-*.tar.gz -C "$folder"
 cd -- "$folder"/flapwing-*
 for file in PKG-INFO README.md LICENSE-APACHE LICENSE-MIT Cargo.lock pyproject.toml python/flapwing/py.typed \

@@ -60,7 +60,7 @@ mkdir -p dist
 
 # The licences of the crates in the command and in the wheel. maturin adds files named LICENSE to wheels.
 licences=crates/flap-py/LICENSE-THIRD-PARTY.yml
-(cd crates/flap-py && cargo bundle-licenses --format yaml --output "${licences##*/}" 2>/dev/null)
+(cd crates/flap-py && cargo bundle-licenses --format yaml --output "${licences##*/}")
 
 # macOS 11 is the oldest that runs on both kinds of processors.
 export MACOSX_DEPLOYMENT_TARGET=11.0

@@ -3,6 +3,8 @@
 #
 #   scripts/test-python.sh [--release] [argument of pytest]...
 #
+# With arguments of pytest, the tests in tests/browser and benches/tests do not run.
+#
 # Cargo's dev profile is used, whose compiled dependencies `cargo test` shares; with --release, the profile of
 # published wheels. The environment is kept in target/python; it is made anew when tests/python/requirements.txt
 # or the interpreter changes, and only then does pip fetch anything.
@@ -79,5 +81,8 @@ python -m mypy.stubtest flapwing._flapwing --mypy-config-file tests/python/mypy.
 export PYTHONDONTWRITEBYTECODE=1
 # Two processes, because many tests use several cores themselves. The tests of a file share its fixtures.
 python -m pytest --quiet -n 2 --dist loadfile -o "cache_dir=$work/pytest-cache" tests/python "$@"
+[[ $# -eq 0 ]] || exit 0
 # Pages of results and the live page, in chromium: skipped where that is not installed.
 python -m pytest --quiet -o "cache_dir=$work/pytest-cache" tests/browser
+# The programs of the comparison with other solvers.
+python -m pytest --quiet -o "cache_dir=$work/pytest-cache" -c tests/python/pytest.ini --rootdir . benches/tests/test_{peers,growth}.py
