@@ -80,6 +80,13 @@ def test_equal_calls_have_equal_bits():
     assert all(np.array_equal(one[name], other[name]) for name in one.columns)
 
 
+def test_inputs_have_units():
+    flight = flapwing.fly(ROBOT, seconds=0.02, inputs=["amplitude", "drag_coefficient_max"], **POINT)
+    assert (flight.units["amplitude"], flight.docs["amplitude"]) == ("V", "drive_voltage_pp")
+    assert (flight.units["drag_coefficient_max"], flight.docs["drag_coefficient_max"]) == ("", "drag_coefficient_max")
+    assert flight.units["force_up_mn"] == "mN"
+
+
 def test_mistakes(regulator):
     with pytest.raises(ValueError, match="did you mean `rate_pitch`"):
         flapwing.fly(ROBOT, seconds=1, disturbance={"rate_pich": 1.0}, **POINT)

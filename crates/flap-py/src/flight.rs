@@ -7,7 +7,7 @@ use flap_sweep::vehicle::hover::STATES;
 use nalgebra::DMatrix;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::point::Chosen;
 use crate::watch::interruptible;
@@ -60,10 +60,10 @@ pub(crate) fn fly<'py>(
     })?;
     let record = record.map_err(|error: FlightError| PyValueError::new_err(error.to_string()))?;
     let columns = vehicle_columns(&chosen);
-    let inputs = request.inputs.iter().map(|input| {
-        let parameter = &chosen.plan.parameters()[input.parameter];
-        (input.name.clone(), format!("{} ({})", parameter.name, parameter.unit))
-    });
+    let parameters = chosen.plan.parameters();
+    let inputs = request.inputs.iter().map(|input| (&input.name, &parameters[input.parameter]));
+    let units = inputs.clone().map(|(name, parameter)| (name, parameter.unit)).into_py_dict(py)?;
+    let inputs = inputs.map(|(name, parameter)| (name.clone(), parameter.name.to_owned()));
     let inputs: Vec<(String, String)> = inputs.collect();
     let meaning = |name: &str| {
         let mut known = inputs.iter().chain(&columns);
@@ -71,6 +71,7 @@ pub(crate) fn fly<'py>(
     };
     let made = Trajectory { columns: record.columns, rows: record.rows };
     let dict = motion::into_python(py, made, meaning, &chosen.meta(py)?)?;
+    dict.set_item("units", units)?;
     dict.set_item("warnings", record.end.into_iter().collect::<Vec<_>>())?;
     Ok(dict)
 }

@@ -126,10 +126,6 @@ def fly(
         )
     for text in native["warnings"]:
         warnings.warn(text, stacklevel=2)
-    for column in native["columns"]:
-        # The description of an input has its unit, as in "drive_voltage_pp (V)".
-        if inputs is not None and column["name"] in inputs:
-            column["unit"] = column["doc"].rpartition(" (")[2].removesuffix(")")
     table = Table._of(native, keywords=keywords)
     table.meta["disturbance"] = dict(disturbance or {})
     return table
