@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import html
-import operator
 import webbrowser
 from types import TracebackType
 from typing import Any, SupportsIndex
 
-from . import _flapwing, _mistakes
+from . import _flapwing
+from ._arguments import count
 from ._types import Design, Value
 
 __all__ = ["Live", "live"]
@@ -29,15 +29,6 @@ function render({ model, el }) {
 }
 export default { render };
 """
-
-
-def _whole(name: str, value: Any) -> int:
-    """Return `value` as an int. Raise TypeError if `value` is not a whole number."""
-    allowed = "it must be a whole number"
-    if not hasattr(type(value), "__index__"):
-        raise _mistakes.refused(name, value, allowed)
-    with _mistakes.reading(name, value, allowed):
-        return operator.index(value)
 
 
 class Live:
@@ -84,7 +75,7 @@ class Live:
         Parameters
         ----------
         height : int, optional
-            Height of the widget in pixels: more than 0. The default of `height` is 800 pixels.
+            Height of the widget in pixels: 1 or more. The default of `height` is 800 pixels.
 
         Returns
         -------
@@ -104,9 +95,7 @@ class Live:
             import traitlets
         except ImportError:
             raise ImportError("the widget requires anywidget: pip install anywidget") from None
-        pixels = _whole("height", height)
-        if pixels <= 0:
-            raise ValueError(f"`height` is {pixels}\nit must be more than 0")
+        pixels = count("height", height)
 
         class Page(anywidget.AnyWidget):  # type: ignore[misc, unused-ignore]
             _esm = _SCRIPT
@@ -168,8 +157,8 @@ def live(
     ...     page.address.startswith("http://127.0.0.1:")
     True
     """
-    number = _whole("port", port)
-    if not 0 <= number <= 65535:
+    number = count("port", port, least=0)
+    if number > 65535:
         raise ValueError(f"`port` is {number}\nit must be from 1 to 65535, or 0 for a free port")
     page = Live(_flapwing.LiveServer(design, dict(keywords), port=number, threads=threads))
     if open_browser:
