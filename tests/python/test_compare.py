@@ -359,6 +359,8 @@ def test_mistakes_in_calls():
     ]:
         with pytest.raises(ValueError, match=message):
             flapwing.select(PRESET, readings(), ["hinge_stiffness"], sigma="3 %", **keywords)
+    with pytest.raises(ValueError, match="`candidates` has `hinge_stiffness` twice\nremove one"):
+        flapwing.select(PRESET, readings(), ["hinge_stiffness", "hinge_stiffness"], sigma="3 %")
     with pytest.raises(ValueError, match="`actuator_mass` is zero in the design"):
         flapwing.select(PRESET, readings(), ["actuator_mass"], sigma="3 %")
     with pytest.raises(ValueError, match="`wing_radius_1` has no value in the design"):

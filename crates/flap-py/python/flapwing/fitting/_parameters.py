@@ -161,32 +161,40 @@ def _first_spread(group: Group, one: Coordinate) -> float:
 
 def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[str, Any]) -> Space:
     """Return the coordinates for the free parameters of a call of `fit`."""
-    if isinstance(free, str) or not (isinstance(free, Mapping) or hasattr(free, "__iter__")):
-        raise TypeError(
-            f"`free` is {type(free).__name__}\n"
-            'it must be a list of parameters, or a dictionary with their bounds: {"hinge_stiffness": (1e-6, 3e-6)}'
-        )
-    listed: list[tuple[Any, Any]] = list(free.items()) if isinstance(free, Mapping) else [(name, None) for name in free]
-    if not listed:
+    parameters = listed("free", free, names)
+    if not parameters:
         raise ValueError("`free` is empty\ngive at least one parameter")
-    for name, _ in listed:
-        if not isinstance(name, str):
-            raise TypeError(
-                f"`free` has an entry that is {type(name).__name__}\nit must have names of parameters as text"
-            )
     coordinates: list[Coordinate] = []
     groups: list[Group] = []
     taken = {names.parameter(name) for name in keywords if name not in _flapwing.settings()}
-    for name, given in ((names.parameter(name), given) for name, given in listed):
+    for name, given in parameters.items():
         _check(name, names, sets, taken)
-        if any(one.parameter == name for one in coordinates):
-            raise ValueError(f"`free` has `{name}` twice\nremove one")
         parameter = _free_of(name, given)
         made = _coordinates(name, parameter, names, sets)
         if _has_spread(parameter):
             groups.append(_group(name, parameter, names, np.arange(len(coordinates), len(coordinates) + len(made))))
         coordinates += made
     return Space(coordinates, groups)
+
+
+def listed(argument: str, given: Any, names: Names) -> dict[str, Any]:
+    """Return the parameters of an argument such as `free`, each with its bounds or None."""
+    if isinstance(given, str) or not hasattr(given, "__iter__"):
+        raise TypeError(
+            f"`{argument}` is {type(given).__name__}\n"
+            'it must be a list of parameters, or a dictionary with their bounds: {"hinge_stiffness": (1e-6, 3e-6)}'
+        )
+    found: dict[str, Any] = {}
+    for name in given:
+        if not isinstance(name, str):
+            raise TypeError(
+                f"`{argument}` has an entry that is {type(name).__name__}\nit must have names of parameters as text"
+            )
+        parameter = names.parameter(name)
+        if parameter in found:
+            raise ValueError(f"`{argument}` has `{parameter}` twice\nremove one")
+        found[parameter] = given[name] if isinstance(given, Mapping) else None
+    return found
 
 
 def _check(name: str, names: Names, sets: Sequence[DataSet], taken: set[str]) -> None:

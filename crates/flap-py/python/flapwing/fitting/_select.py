@@ -235,8 +235,8 @@ def select(
     _flapwing.check(design, keywords=dict(keywords))
     names = Names(design)
     sets = _data.resolve(data, names, sigma)
-    first = {names.parameter(name): given for name, given in _listed("start", start).items()}
-    wanted = {names.parameter(name): given for name, given in _listed("candidates", candidates).items()}
+    first = _parameters.listed("start", start, names)
+    wanted = _parameters.listed("candidates", candidates, names)
     more = [name for name in wanted if name not in first]
     if not more:
         raise ValueError("`candidates` has no parameter that is not in `start`\ngive at least one")
@@ -374,18 +374,6 @@ def _final(work: Subsets, state: Subset, starts: int, seed: int, profile: bool) 
     begins = [state.x, *_search.starts(model, target, starts, seed)]
     ends = _search.from_all(model, target, begins)
     return _fit.finish(model, work.sets, target, ends, guesses, work.held, profile, seed, begun)
-
-
-def _listed(place: str, given: Any) -> dict[str, Any]:
-    if isinstance(given, str) or not (isinstance(given, Mapping) or hasattr(given, "__iter__")):
-        raise TypeError(
-            f"`{place}` is {type(given).__name__}\nit must be a list of parameters, or a dictionary with bounds"
-        )
-    listed = dict(given) if isinstance(given, Mapping) else dict.fromkeys(given)
-    for name in listed:
-        if not isinstance(name, str):
-            raise TypeError(f"`{place}` has an entry that is {type(name).__name__}\nit must have names of parameters")
-    return listed
 
 
 def _check_values(names: Names, more: Sequence[str]) -> None:
