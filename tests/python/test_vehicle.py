@@ -14,7 +14,7 @@ FORCES = ["force_forward_mn", "force_left_mn", "force_up_mn"]
 
 
 def pair(design="jafferis2016", **options):
-    wings = [flapwing.Wing("left", position=PLACE), flapwing.Wing("right", position=PLACE, mirrored=True)]
+    wings = [flapwing.Wing("left", position=PLACE), flapwing.Wing("right", position=PLACE, mirrored=np.True_)]
     return flapwing.Vehicle(design, wings, about=["0 mm", "0 mm", "-2 mm"], total_mass="85 mg", **options)
 
 

@@ -6,7 +6,7 @@ import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from . import _flapwing
+from . import _arguments, _flapwing
 from ._flapwing import Grid
 from ._linear import LinearModel
 from ._mistakes import refused
@@ -82,10 +82,8 @@ class Wing(_Entries):
     ) -> None:
         if not isinstance(name, str):
             raise refused("name", name, 'it must be the name of a wing, such as "left"')
-        if not isinstance(mirrored, bool):
-            raise refused("mirrored", mirrored, "it must be True or False")
         self._held = {"name": name}
-        if mirrored:
+        if _arguments.flag("mirrored", mirrored):
             self._held["mirrored"] = True
         if position is not None:
             self._held["position"] = _vector("position", position)
