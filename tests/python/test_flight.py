@@ -96,6 +96,9 @@ def test_mistakes(regulator):
         flapwing.fly(ROBOT, seconds=1, gains=regulator["gains"][:, :8], inputs=regulator["inputs"], **POINT)
     with pytest.raises(ValueError, match="has 1 dimensions"):
         flapwing.fly(ROBOT, seconds=1, gains=[1.0], inputs=["bias"], **POINT)
+    for call in (lambda: flapwing.fly(ROBOT, seconds=1, inputs=3, **POINT), lambda: ROBOT.linear(inputs=3, **POINT)):
+        with pytest.raises(TypeError, match="`inputs` is int\nit must be a list of names"):
+            call()
     with pytest.raises(TypeError, match="`gains` is list"):
         flapwing.fly(ROBOT, seconds=1, gains=[["much"]], inputs=["bias"], **POINT)
     with pytest.raises(TypeError, match="it must be a dictionary"):

@@ -184,18 +184,19 @@ def states(design: Design, initial_state: Any) -> np.ndarray[Any, np.dtype[np.fl
 
 def measures(names: Any) -> list[str] | None:
     """Return names of measures as a list."""
-    return _names("measures", names, "lift_mean_mn")
+    return name_list("measures", names, "lift_mean_mn")
 
 
 def gradient(names: Any) -> list[str] | None:
     """Return names of parameters as a list of at least one name."""
-    listed = _names("gradient", names, "hinge_stiffness")
+    listed = name_list("gradient", names, "hinge_stiffness")
     if listed == []:
         raise ValueError('`gradient` is empty\nit must be a list of names such as ["hinge_stiffness"]')
     return listed
 
 
-def _names(argument: str, names: Any, example: str) -> list[str] | None:
+def name_list(argument: str, names: Any, example: str) -> list[str] | None:
+    """Return names as a list, and None unchanged."""
     if names is None:
         return None
     if isinstance(names, str) or not hasattr(names, "__iter__"):

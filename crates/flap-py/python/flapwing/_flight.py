@@ -106,8 +106,7 @@ def fly(
     """
     if gains is not None and inputs is None:
         raise ValueError("`gains` require `inputs`\ngive the names of the inputs, one for each row of `gains`")
-    if isinstance(inputs, str):
-        raise refused("inputs", inputs, 'it must be a list of names, such as ["amplitude", "bias"]')
+    names = _arguments.name_list("inputs", inputs, "amplitude")
     if disturbance is not None and not isinstance(disturbance, Mapping):
         raise refused("disturbance", disturbance, 'it must be a dictionary, such as {"velocity_forward": "0.1 m/s"}')
     with one_step(progress):
@@ -120,7 +119,7 @@ def fly(
             seconds=seconds,
             disturbance=[] if disturbance is None else list(disturbance.items()),
             gains=None if gains is None else _matrix(gains),
-            inputs=[] if inputs is None else list(inputs),
+            inputs=names or [],
             averaged=_arguments.flag("averaged", averaged),
             samples=samples,
         )

@@ -243,9 +243,7 @@ class Vehicle(_Entries):
         >>> model.modes[0]
         'pitch and forward velocity (longitudinal oscillation)'
         """
-        if isinstance(inputs, str):
-            raise refused("inputs", inputs, 'it must be a list of names, such as ["amplitude", "bias"]')
-        names = None if inputs is None else list(inputs)
+        names = _arguments.name_list("inputs", inputs, "amplitude")
         found = _flapwing.linear(self, dict(params), point=point, inputs=names, trim_to_hover=trim, positions=positions)
         eigenvalues = found.pop("eigenvalues_real") + 1j * found.pop("eigenvalues_imag")
         return LinearModel(eigenvalues=eigenvalues, **found)
