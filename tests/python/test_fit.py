@@ -5,6 +5,8 @@ import numpy as np
 import pytest
 from fits import FREQUENCY, PRESET, TRUE, TRUTH, readings
 from flapwing.fitting import _fit, _search
+from flapwing.fitting._parameters import Coordinate, Space
+from flapwing.fitting._search import Target
 from scipy.stats import norm
 
 #: The true parameters without the hinge stiffness.
@@ -173,6 +175,33 @@ def test_intervals_of_a_robust_loss_have_the_width_of_its_errors(loss, variance)
         assert estimate.high - estimate.low == pytest.approx(2 * 1.96 * estimate.error, rel=0.2)
         errors[one] = estimate.error
     assert 0.95 * np.sqrt(variance) < errors[loss] / errors["linear"] < 1.4 * np.sqrt(variance)
+
+
+@pytest.mark.parametrize("loss", ["huber", "arctan"])
+def test_a_robust_loss_keeps_the_weight_of_priors(loss):
+    """The readings and the prior have the same weight. Readings determine no other parameter than the first."""
+    residuals = norm.ppf((np.arange(400) + 0.5) / 400)
+    curvature, variance = _search.robust_factors(residuals, loss, 400)
+    space = Space([Coordinate(name, None, name, "", False, -1.0, 1.0, 0.0, (0.0, 0.05)) for name in ("a", "b")])
+    target = Target(np.zeros(400), np.ones(400), np.ones(400, np.bool_), loss)
+    _, first, second = target.losses(np.array([*residuals**2, 9.0, 9.0]))
+    assert list(first[-2:]) == [1.0, 1.0] and list(second[-2:]) == [0.0, 0.0]
+    assert target.cost(np.array([*np.zeros(400), 3.0, 3.0])) == 9.0
+    slopes, priors = np.tile([1.0, 0.0], (400, 1)), space.prior(np.zeros(2))[1]
+    inverse, _ = _search.inverse(np.concatenate([np.sqrt(curvature) * slopes, priors]))
+    errors = np.sqrt(np.diag(_search.m_covariance(inverse, inverse, priors, variance * curvature)))
+    # The variance of the gradient, divided by the square of the curvature.
+    expected = np.sqrt(variance * curvature**2 * 400 + 400) / (curvature * 400 + 400)
+    assert errors == pytest.approx([expected, 0.05], rel=1e-6)
+
+
+def test_a_parameter_with_a_prior_alone_has_the_error_of_the_prior():
+    """The dielectric loss does not affect the stroke."""
+    free = {"hinge_stiffness": None, "dielectric_loss": flapwing.FreeParameter(0.001, 0.1, prior=(0.02, 0.001))}
+    result = flapwing.fit(PRESET, readings(), free, sigma="3 %", loss="arctan", starts=1, **BESIDE)
+    one = result.estimates["dielectric_loss"]
+    assert (one.value, one.error) == pytest.approx((0.02, 0.001), rel=1e-3)
+    assert (one.low, one.high) == pytest.approx((0.02 - 0.00196, 0.02 + 0.00196), rel=5e-3) and one.is_known
 
 
 def test_outliers_count_less_with_a_robust_loss():

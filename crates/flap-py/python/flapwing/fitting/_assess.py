@@ -62,34 +62,48 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     structured = {one.measure for one in structure if one.is_structured}
     is_far = _far(measures, structured, scaled, target.loss)
     residuals = _solution.of_residuals(sets, units, difference, scaled, counted, structured)
-    priors = model.space.prior(found.x)[0]
     jacobian = target.jacobian(model.space, found.x, answer)
-    inverse, lost = _search.inverse(jacobian)
-    good = _solution.goodness(residuals, structure, priors, _search.determined(jacobian), sigma_known(sets))
+    readings = int(target.used.sum())
     slopes = np.zeros((len(scaled), len(model.space)))
-    slopes[target.used] = jacobian[: int(target.used.sum())]
+    slopes[target.used] = jacobian[:readings]
+    parameters = _search.followed(model.space, target, found.x, answer)
+    every = target.residuals(model.space, found.x, answer)
+    curvature, variance = _search.robust_factors(every[:readings], target.loss, readings - parameters)
+    jacobian[:readings] *= np.sqrt(curvature)
+    inverse, lost = _search.inverse(jacobian)
+    known = _search.determined(jacobian)
+    good = _solution.goodness(residuals, structure, every[readings:], known, sigma_known(sets))
     fitted = counted & ~is_far
     discrepancy = Discrepancies([], {}, inverse, np.inf)
     if structured or good.p < DOUBTFUL:
         if target.loss != "linear":
             measures = {measure: chosen[~is_far[chosen]] for measure, chosen in measures.items()}
         discrepancy = of_residuals(
-            layout, measures, kinds(sets), units, structured, answer.values, target.sigma, scaled, slopes, inverse
+            layout,
+            measures,
+            kinds(sets),
+            units,
+            structured,
+            answer.values,
+            target.sigma,
+            scaled,
+            slopes * np.sqrt(curvature),
+            inverse,
         )
-    with np.errstate(invalid="ignore", divide="ignore"):
-        factors = np.sqrt(np.diag(discrepancy.covariance) / np.diag(inverse))
-    factors = np.where(np.isfinite(factors), np.maximum(factors, 1.0), 1.0)
-    readings = target.residuals(model.space, found.x, answer)[: int(target.used.sum())]
-    parameters = _search.followed(model.space, target, found.x, answer)
-    curvature, variance = _search.robust_factors(readings, target.loss, len(readings) - parameters)
     if discrepancy.listed:
         # The discrepancy contains the excess of the residuals.
         variance = _search.NORMAL_VARIANCE[target.loss]
+    covariance, least = (
+        _search.m_covariance(one, inverse, jacobian[readings:], variance * curvature)
+        for one in (discrepancy.covariance, inverse)
+    )
+    with np.errstate(invalid="ignore", divide="ignore"):
+        factors = np.sqrt(np.maximum(np.diag(covariance), np.diag(least)) / np.diag(inverse))
     return Assessed(
-        _search.without(inverse / curvature, lost),
-        _search.without(variance * discrepancy.covariance, lost),
-        factors * np.sqrt(variance * curvature),
-        jacobian * np.sqrt(curvature),
+        _search.without(inverse, lost),
+        _search.without(covariance, lost),
+        np.where(np.isfinite(factors), factors, 1.0),
+        jacobian,
         discrepancy,
         good,
         _listed(sets, scaled, is_far),

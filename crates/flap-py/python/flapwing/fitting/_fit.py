@@ -62,8 +62,9 @@ def fit(
         unit, text such as ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one standard error for
         each measure. By default, the standard error is estimated from the residuals.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
-        The loss function. All loss functions except ``"linear"`` reduce the weight of outliers. With these loss
-        functions, errors and intervals contain the variance of an M-estimator.
+        The loss function of the readings. All loss functions except ``"linear"`` reduce the weight of outliers. With
+        these loss functions, errors and intervals contain the variance of an M-estimator. Priors and spreads always
+        have the linear loss.
     starts : int
         Number of searches. The first search starts at the design's values, and the remaining searches start at the best
         points of a Sobol' sequence.

@@ -117,6 +117,20 @@ class Target:
         """Return the derivatives of the residuals with respect to the coordinates."""
         return np.concatenate([(answer.slopes / self.sigma[:, np.newaxis])[self.used], space.prior(x)[1]])
 
+    def losses(self, squares: Array) -> Array:
+        """Return the losses of squared residuals, and the first and second derivatives of the losses, as three rows.
+        The errors of priors are normal, so the loss of priors is linear.
+        """
+        readings = int(self.used.sum())
+        pairs = zip(LOSSES[self.loss], LOSSES["linear"])
+        return np.array(
+            [np.concatenate([loss(squares[:readings]), linear(squares[readings:])]) for loss, linear in pairs]
+        )
+
+    def cost(self, residuals: Array) -> float:
+        """Return the cost: half of the sum of the losses of all residuals."""
+        return float(0.5 * np.sum(self.losses(residuals**2)[0]))
+
 
 @dataclass(frozen=True)
 class Found:
@@ -158,7 +172,7 @@ def minimise(
     if not len(moving):
         x, known = answer(whole[moving])
         jacobian_there = target.jacobian(space, x, known)
-        return Found(x, cost_of(target.residuals(space, x, known), target.loss), jacobian_there, True, 1)
+        return Found(x, target.cost(target.residuals(space, x, known)), jacobian_there, True, 1)
     # The method requires a start inside the bounds. Its first trust region has the size of the start's coordinates, so
     # the coordinates of the method have the value 1 at the start.
     inside = np.clip(begin, space.low + 1e-9, space.high - 1e-9)[moving]
@@ -168,7 +182,7 @@ def minimise(
         np.ones(len(moving)),
         lambda y: jacobian(y + shift),
         (space.low[moving] - shift, space.high[moving] - shift),
-        loss=target.loss,
+        loss="linear" if target.loss == "linear" else target.losses,
         x_scale="jac",
         ftol=tolerance,
         xtol=1e-5,
@@ -189,7 +203,7 @@ def starts(model: Model, target: Target, count: int, seed: int) -> list[Array]:
         return [own]
     looks = [own, *sobol(space, _LOOKS * count, seed)]
     answers = model.at(looks, slopes=False, rtol=LOOK)
-    costs = [cost_of(target.residuals(space, x, answer), target.loss) for x, answer in zip(looks, answers)]
+    costs = [target.cost(target.residuals(space, x, answer)) for x, answer in zip(looks, answers)]
     best = sorted(range(1, len(looks)), key=lambda place: costs[place])[: count - 1]
     return [own, *(looks[place] for place in best)]
 
@@ -224,18 +238,6 @@ NORMAL_VARIANCE = {"linear": 1.0, "soft_l1": 1.079, "huber": 1.107, "cauchy": 1.
 _CURVATURE = 0.1
 
 
-def cost_of(residuals: Array, loss: str) -> float:
-    """Return the cost: half of the sum of the losses of all residuals."""
-    return float(0.5 * np.sum(LOSSES[loss][0](residuals**2)))
-
-
-def weights(residuals: Array, loss: str) -> Array:
-    """Return the weight of each residual for a loss function: the derivative of the loss with respect to the squared
-    residual.
-    """
-    return np.asarray(LOSSES[loss][1](residuals**2))
-
-
 def robust_factors(residuals: Array, loss: str, freedom: float) -> tuple[float, float]:
     """Return the curvature of the cost, and the variance of the estimates. Both are relative to the linear loss.
 
@@ -250,6 +252,16 @@ def robust_factors(residuals: Array, loss: str, freedom: float) -> tuple[float, 
     curvature = max(float(np.mean(first + 2 * squares * second)), _CURVATURE * float(np.mean(first)))
     variance = float(np.sum(squares * first**2)) / max(1.0, freedom) / curvature**2
     return curvature, max(variance, NORMAL_VARIANCE[loss])
+
+
+def m_covariance(covariance: Array, inverse: Array, priors: Array, ratio: float) -> Array:
+    """Return the covariance of an M-estimator with priors.
+
+    `inverse` is the inverse of the curvature of the cost. `covariance` is the covariance for gradients whose variance
+    equals the curvature. The ratio of variance and curvature is E[psi^2] / E[psi'] for the readings, and 1 for the
+    priors. `priors` has the derivatives of the residuals of the priors.
+    """
+    return np.asarray(ratio * covariance - (ratio - 1.0) * inverse @ priors.T @ priors @ inverse)
 
 
 def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Found]:
@@ -270,7 +282,7 @@ def polish(model: Model, target: Target, begin: Array, error: float = _COST) -> 
     def ask(x: Array) -> Answer:
         return model.at([x], slopes=len(x) > 0, rtol=FINE)[0]
 
-    cost = cost_of(target.residuals(model.space, begin, ask(begin)), target.loss)
+    cost = target.cost(target.residuals(model.space, begin, ask(begin)))
     return minimise(ask, model.space, target, begin, None, tolerance=tolerance_of(error, cost))
 
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from .._types import Array
-from . import _search
 from ._model import Answer
 from ._parameters import Group, Space
 from ._search import Target
@@ -112,7 +111,7 @@ def _deviances(space: Space, group: Group, target: Target, x: Array, answer: Ans
     others, slopes_of_others = space.prior(x, leave_out=group.parameter)
     residuals = np.concatenate([everything[:readings], others])
     jacobian = np.concatenate([target.jacobian(space, x, answer)[:readings], slopes_of_others])
-    weights = np.sqrt(_search.weights(residuals, target.loss))
+    weights = np.sqrt(target.losses(residuals**2)[1])
     weak = _WEAK * np.eye(len(space))
     residuals = np.concatenate([residuals * weights, np.zeros(len(space))])
     jacobian = np.concatenate([jacobian * weights[:, np.newaxis], weak])
