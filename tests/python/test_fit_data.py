@@ -189,6 +189,10 @@ def test_readings_within_their_bands_are_covered():
     found = _solution.held_out(names, measured, values, held, np.ones(5))
     assert (found.count, found.covered, found.unsettled) == (4, 0.5, 0)
     assert found.rms["stroke_pp_deg"] == pytest.approx(np.sqrt((0.25 + 0.81 + 1.21 + 9.0) / 4))
+    # A prediction without derivatives has no band. A motion that does not settle is outside.
+    values[3], reach = np.nan, np.array([1.0, np.nan, 1.0, np.nan, 1.0])
+    assert _solution.held_out(names, measured, values, held, reach).covered == pytest.approx(1 / 3)
+    assert np.isnan(_solution.held_out(names, measured, values, np.arange(5) == 1, reach).covered)
 
 
 def test_residuals_leave_out_readings_that_are_held_out():

@@ -93,7 +93,8 @@ class HeldOut:
     covered : float
         The fraction of the readings within the 95 % bands of the predictions. The bands include the errors of the
         parameters, the discrepancy of the model, and the noise of the readings. An `unsettled` reading counts as
-        outside its band.
+        outside its band. Readings without derivatives have no band, and do not count. `covered` is nan if no reading
+        counts.
     unsettled : int
         Number of readings without a prediction, because the motion of the model at the operating point does not settle.
     """
@@ -251,11 +252,12 @@ def goodness(
 
 def held_out(names: np.ndarray[Any, Any], measured: Array, values: Array, held: Mask, reach: Array) -> HeldOut:
     """Return the prediction errors of readings that were not fitted. `names` has the measure of each reading, and
-    `reach` has half of the width of each reading's 95 % band.
+    `reach` has half of the width of each reading's 95 % band, or nan for a prediction without an error.
     """
     difference = values - measured
     settled = held & np.isfinite(difference)
-    covered = float(np.mean((np.abs(difference) <= reach)[held]))
+    banded = held & ~(settled & np.isnan(reach))
+    covered = float(np.mean((np.abs(difference) <= reach)[banded])) if banded.any() else np.nan
     return HeldOut(int(held.sum()), rms_errors(names, difference, settled), covered, int((held & ~settled).sum()))
 
 
