@@ -45,8 +45,10 @@ class SelectionStep:
         The decrease of the criterion in the step. For the first fit, `gain` is nan.
     p : float
         The probability that noise alone improves the fit as much as the best of all candidate parameters. With
-        estimated standard errors, `p` is computed by an F test, in which several measures count as one. With given
-        standard errors, `p` is computed by a chi-square test. `p` is nan if the step frees no parameter.
+        estimated standard errors, `p` is computed by an F test, in which several measures count as one. The F test also
+        counts readings with given standard errors, so `p` can be too small if most readings have given standard
+        errors. If all standard errors are given, `p` is computed by a chi-square test. `p` is nan if the step frees no
+        parameter.
     held_out : float
         Root mean square of the errors of all readings that were not fitted. Each error is divided by the standard error
         of its reading. `held_out` is nan if the selection has no `hold_out`.
