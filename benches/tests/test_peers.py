@@ -215,9 +215,9 @@ def test_mistakes_are_named(arguments, message, capsys):
 @pytest.mark.parametrize(
     ("name", "heading"),
     [
-        ("integration", "The work `integration`"),
-        ("settled", "The works `settled` and `responses`"),
-        ("responses", "The works `settled` and `responses`"),
+        ("integration", "The test problem `integration`"),
+        ("settled", "The test problems `settled` and `responses`"),
+        ("responses", "The test problems `settled` and `responses`"),
     ],
 )
 def test_every_peer_is_described(name, heading):
