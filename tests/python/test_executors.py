@@ -90,6 +90,20 @@ def test_tasks_have_the_chosen_number_of_points_and_a_bounded_number_waits():
     assert [len(arguments[2]["drive_voltage_pp"]) for _, arguments in recorder.submitted] == [3, 3, 3]
 
 
+def test_workers_that_start_later_get_tasks():
+    class Growing(Recorder):
+        def nthreads(self):
+            """One thread at first, and a further thread after each result."""
+            return dict.fromkeys(range(1 + len(self.submitted) - self.waiting), 1)
+
+    recorder = Growing()
+    assert len(flapwing.sweep(GRID, client=recorder, points_per_task=1)) == 24
+    assert recorder.most_waiting > 20
+    # Without workers at first, tasks are small.
+    recorder.nthreads = dict
+    assert _workers._task_size(recorder, 8000, 1, None) == 125
+
+
 @pytest.mark.parametrize(("workers", "threads", "size"), [(2, 1, 1000), (1, 1, 2000), (2, 4, 1000), (16, 1, 125)])
 def test_by_default_every_worker_gets_points(workers, threads, size):
     with ThreadPoolExecutor(workers) as pool:

@@ -21,7 +21,8 @@ from ._types import Executor
 _TASK_POINTS = 2048
 #: Number of running and waiting tasks per worker, so that no worker is idle and the memory is limited.
 _TASKS_PER_WORKER = 4
-#: Number of workers of an executor that does not report the number, such as submitit's.
+#: Number of workers of an executor that does not report the number, such as submitit's, and of a cluster whose workers
+#: have not started.
 _UNKNOWN_WORKERS = 16
 #: Number of times that Dask repeats a task on other workers after a worker died.
 _RETRIES = 5
@@ -32,7 +33,7 @@ _MOST_REASONS = 5
 def _number_of_workers(client: Any) -> int:
     """Return the number of tasks that run at the same time."""
     if hasattr(client, "nthreads"):
-        return max(1, sum(client.nthreads().values()))
+        return sum(client.nthreads().values()) or _UNKNOWN_WORKERS
     # `num_workers` is mpi4py's; process pools and thread pools have only the private attribute.
     number = getattr(client, "num_workers", None) or getattr(client, "_max_workers", None)
     return number if isinstance(number, int) and number > 0 else _UNKNOWN_WORKERS
@@ -47,13 +48,14 @@ def _results(
     The number of tasks that are submitted at the same time is limited. If the iterator is closed or an
     exception is raised, tasks that have not started are cancelled.
     """
-    ahead = _TASKS_PER_WORKER * _number_of_workers(client)
     # A Dask client makes an executor, with tasks that are not cached.
     executor: Any = client.get_executor(pure=False, retries=_RETRIES) if hasattr(client, "get_executor") else client
     submitted: deque[Any] = deque()
     remaining = iter(tasks)
     try:
         while True:
+            # The workers of a cluster can start after the first tasks.
+            ahead = _TASKS_PER_WORKER * _number_of_workers(client)
             while len(submitted) < ahead and (task := next(remaining, None)) is not None:
                 submitted.append(executor.submit(function, *task))
             if not submitted:
