@@ -24,8 +24,6 @@ _TASKS_PER_WORKER = 4
 #: Number of workers of an executor that does not report the number, such as submitit's, and of a cluster whose workers
 #: have not started.
 _UNKNOWN_WORKERS = 16
-#: Number of times that Dask repeats a task on other workers after a worker died.
-_RETRIES = 5
 #: Number of invalid points whose reasons are kept, as for a batch on one machine.
 _MOST_REASONS = 5
 
@@ -49,7 +47,7 @@ def _results(
     exception is raised, tasks that have not started are cancelled.
     """
     # A Dask client makes an executor, with tasks that are not cached.
-    executor: Any = client.get_executor(pure=False, retries=_RETRIES) if hasattr(client, "get_executor") else client
+    executor: Any = client.get_executor(pure=False) if hasattr(client, "get_executor") else client
     submitted: deque[Any] = deque()
     remaining = iter(tasks)
     try:
