@@ -10,16 +10,11 @@ from ._native import (
     NativeBars,
     NativeColours,
     NativeIdentity,
-    NativeMeasure,
-    NativeOptimum,
     NativeOrigins,
     NativeParameter,
-    NativeResonances,
-    NativeRow,
     NativeTable,
     NativeUncertainty,
     NativeWays,
-    NativeWrenchMap,
 )
 
 __all__ = [
@@ -243,7 +238,7 @@ def presets() -> list[str]:
 def params(design: Any, /) -> list[NativeParameter]:
     """Return the parameters of a design or a model; see `flapwing.params`."""
 
-def measures(design: Any, /) -> list[NativeMeasure]:
+def measures(design: Any, /) -> list[dict[str, Any]]:
     """Return the measures of a design or a model; see `flapwing.measures`."""
 
 def uncertainty(design: Any, /) -> NativeUncertainty:
@@ -276,7 +271,7 @@ def run(
     initial_state: dict[str, Any] | None = None,
     waveform: str | dict[str, Any] | None = None,
     stroke: str | dict[str, Any] | None = None,
-) -> NativeRow:
+) -> dict[str, Any]:
     """Run one point; see `flapwing.run`."""
 
 def trajectory(
@@ -321,7 +316,7 @@ def resonance(
     impulse: SupportsFloat | str,
     fit_cycles: SupportsIndex,
     spectrum_window: SupportsFloat | str,
-) -> NativeResonances:
+) -> dict[str, Any]:
     """Compute the resonances of one point; see `flapwing.resonance`."""
 
 def optimise(
@@ -336,7 +331,7 @@ def optimise(
     sample: SupportsIndex,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
-) -> NativeOptimum:
+) -> dict[str, Any]:
     """Find the best design; see `flapwing.optimise`."""
 
 def wrench_map(
@@ -349,7 +344,7 @@ def wrench_map(
     samples: SupportsIndex,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
-) -> NativeWrenchMap:
+) -> dict[str, Any]:
     """Fit a quadratic map of force and torque; see `flapwing.wrench_map`. Each range is a name, a first and a last value."""
 
 def linear(

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 from typing import Any, SupportsIndex
 
 from . import _flapwing, _mistakes, _workers
-from ._native import NativeOptimum
 from ._progress import Progress, one_step, shown
 from ._results import ActiveBound, ConditionValue, LocalOptimum, Optimum, Row
 from ._types import Design, Executor, Value
@@ -106,28 +105,14 @@ def optimise(
         "sample": sample,
         "threads": threads,
     }
-    found: NativeOptimum
     if client is None:
         with shown(progress) as show:
             found = _flapwing.optimise(design, dict(keywords), progress=show, **options)
     else:
         with one_step(progress):
             found = _workers.call(client, _flapwing.optimise, design, dict(keywords), **options)
-    return Optimum(
-        status=found["status"],
-        goal=goal,
-        value=found["value"],
-        values=found["values"],
-        row=Row(**found["row"]),
-        active=[ActiveBound(**bound) for bound in found["active"]],
-        conditions=[ConditionValue(**condition) for condition in found["conditions"]],
-        optima=[LocalOptimum(**optimum) for optimum in found["optima"]],
-        at_end=found["at_end"],
-        starts=found["starts"],
-        points=found["points"],
-        points_computed=found["points_computed"],
-        rows=found["rows"],
-        rows_with_derivatives=found["rows_with_derivatives"],
-        is_polished=found["is_polished"],
-        device=found["device"],
-    )
+    found["row"] = Row(**found["row"])
+    found["active"] = [ActiveBound(**bound) for bound in found["active"]]
+    found["conditions"] = [ConditionValue(**condition) for condition in found["conditions"]]
+    found["optima"] = [LocalOptimum(**optimum) for optimum in found["optima"]]
+    return Optimum(goal=goal, **found)

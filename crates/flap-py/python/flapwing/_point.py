@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import SupportsFloat, SupportsIndex
 
 from . import _arguments, _flapwing, _workers
-from ._native import NativeResonances, NativeRow, NativeTable
+from ._native import NativeTable
 from ._progress import Progress, one_step
 from ._results import DampedSine, DrivenPeak, FrequencyGap, Resonances, Row
 from ._table import Table
@@ -136,7 +136,7 @@ def run(
     steps = {"max_cycles": max_cycles, "max_steps": max_steps}
     search = {"newton": newton, "progressive": progressive, "symmetry": symmetry}
     with one_step(progress):
-        row: NativeRow = _workers.call(
+        row = _workers.call(
             client,
             _flapwing.run,
             design,
@@ -292,7 +292,7 @@ def resonance(
     110.7
     """
     with one_step(progress):
-        found: NativeResonances = _workers.call(
+        found = _workers.call(
             client,
             _flapwing.resonance,
             design,
@@ -305,12 +305,8 @@ def resonance(
             fit_cycles=fit_cycles,
             spectrum_window=spectrum_window,
         )
-    return Resonances(
-        linear_hz=found["linear_hz"],
-        impulse_fit=None if found["impulse_fit"] is None else DampedSine(**found["impulse_fit"]),
-        stroke_spectrum_hz=found["stroke_spectrum_hz"],
-        pitch_spectrum_hz=found["pitch_spectrum_hz"],
-        driven=[DrivenPeak(**peak) for peak in found["driven"]],
-        larger_at_hz=found["larger_at_hz"],
-        gaps=[FrequencyGap(**gap) for gap in found["gaps"]],
-    )
+    sine = found["impulse_fit"]
+    found["impulse_fit"] = None if sine is None else DampedSine(**sine)
+    found["driven"] = [DrivenPeak(**peak) for peak in found["driven"]]
+    found["gaps"] = [FrequencyGap(**gap) for gap in found["gaps"]]
+    return Resonances(**found)

@@ -11,7 +11,6 @@ from typing import Any, SupportsIndex
 import numpy as np
 
 from . import _flapwing, _mistakes, _workers
-from ._native import NativeWrenchMap
 from ._progress import Progress, one_step, shown
 from ._types import Array, Design, Executor, Places, Value
 
@@ -192,30 +191,18 @@ def wrench_map(
         "samples": samples,
         "threads": threads,
     }
-    found: NativeWrenchMap
     if client is None:
         with shown(progress) as show:
             found = _flapwing.wrench_map(design, dict(keywords), progress=show, **options)
     else:
         with one_step(progress):
             found = _workers.call(client, _flapwing.wrench_map, design, dict(keywords), **options)
-    for text in found["warnings"]:
+    for text in found.pop("warnings"):
         warnings.warn(text, stacklevel=2)
-    return WrenchMap(
-        inputs=found["inputs"],
-        parameters=found["parameters"],
-        units=found["units"],
-        start=np.array(found["start"]),
-        stop=np.array(found["stop"]),
-        components=found["components"],
-        powers=np.array(found["powers"], dtype=np.intp),
-        scaled=np.array(found["scaled"]),
-        physical=np.array(found["physical"]),
-        r_squared=np.array(found["r_squared"]),
-        largest_error=np.array(found["largest_error"]),
-        rows=found["rows"],
-        floquet_max=found["floquet_max"],
-    )
+    for name in ("start", "stop", "scaled", "physical", "r_squared", "largest_error"):
+        found[name] = np.array(found[name])
+    found["powers"] = np.array(found["powers"], dtype=np.intp)
+    return WrenchMap(**found)
 
 
 #: The form of ranges, for messages.
