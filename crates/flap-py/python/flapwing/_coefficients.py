@@ -13,8 +13,6 @@ from . import _flapwing
 from ._data import Data
 from ._types import Array, Design
 
-__all__ = ["CoefficientFit", "fit_coefficients"]
-
 #: Columns of a table that can be fitted.
 _COLUMNS = ("lift_coefficient", "drag_coefficient", "pressure")
 

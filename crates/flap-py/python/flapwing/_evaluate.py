@@ -17,8 +17,6 @@ if TYPE_CHECKING:
     import polars
     import pyarrow
 
-__all__ = ["evaluate"]
-
 
 def evaluate(
     design: Design,

@@ -8,8 +8,6 @@ from . import _arguments, _flapwing
 from ._table import Table
 from ._types import Design, Record, Value
 
-__all__ = ["chirp", "forces_along", "impulse", "track_wing"]
-
 
 def chirp(
     design: Design,

@@ -15,8 +15,6 @@ from ._progress import Progress, one_step
 from ._table import Table
 from ._types import Design, Executor, Value
 
-__all__ = ["fly"]
-
 
 def fly(
     design: Design,

@@ -9,8 +9,6 @@ import numpy as np
 
 from ._native import Floats
 
-__all__ = ["LinearModel"]
-
 Complexes = np.ndarray[Any, np.dtype[np.complex128]]
 
 

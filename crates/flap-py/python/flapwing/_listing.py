@@ -6,8 +6,6 @@ from . import _flapwing
 from ._results import Measure, Parameter, State
 from ._types import Design
 
-__all__ = ["measures", "params", "states"]
-
 
 def params(design: Design, /) -> dict[str, Parameter]:
     """Return the parameters of a design with their values, or the parameters of a model without values.

@@ -11,8 +11,6 @@ from . import _flapwing
 from ._arguments import count
 from ._types import Design, Value
 
-__all__ = ["Live", "live"]
-
 #: Code of the widget, which shows the live page in a frame.
 _SCRIPT = """
 function render({ model, el }) {

@@ -10,8 +10,6 @@ from ._progress import Progress, one_step, shown
 from ._results import ActiveBound, ConditionValue, LocalOptimum, Optimum, Row
 from ._types import Design, Executor, Value
 
-__all__ = ["optimise"]
-
 
 def optimise(
     design: Design,

@@ -11,8 +11,6 @@ from ._results import DampedSine, DrivenPeak, FrequencyGap, Resonances, Row
 from ._table import Table
 from ._types import Design, Executor, InitialState, Record, Value
 
-__all__ = ["resonance", "run", "trajectory"]
-
 
 def run(
     design: Design,

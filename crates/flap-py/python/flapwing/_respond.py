@@ -10,8 +10,6 @@ from ._results import BistableBand, Verdict
 from ._table import Table
 from ._types import Design, Executor, Value
 
-__all__ = ["edges", "respond"]
-
 
 def respond(
     design: Design,

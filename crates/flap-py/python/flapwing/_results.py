@@ -10,23 +10,6 @@ from typing import Any
 
 from ._mistakes import unknown
 
-__all__ = [
-    "ActiveBound",
-    "BistableBand",
-    "ConditionValue",
-    "DampedSine",
-    "DrivenPeak",
-    "FrequencyGap",
-    "LocalOptimum",
-    "Measure",
-    "Optimum",
-    "Parameter",
-    "Resonances",
-    "Row",
-    "State",
-    "Verdict",
-]
-
 
 def _same(one: Any, other: Any) -> bool:
     """Return True if two values are equal, or if both values are nan."""

@@ -10,8 +10,6 @@ import numpy as np
 from ._table import Table
 from ._types import Array
 
-__all__ = ["hover_eigenvalues"]
-
 _WRENCH = {
     "force_forward_mn": 1e-3,
     "force_left_mn": 1e-3,

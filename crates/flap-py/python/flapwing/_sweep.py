@@ -14,8 +14,6 @@ from ._progress import Progress, shown
 from ._table import Table
 from ._types import Design, Executor, Measures, Value
 
-__all__ = ["read", "sweep"]
-
 
 def sweep(
     design: Design,

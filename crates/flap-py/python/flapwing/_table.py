@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     import pyarrow
     import xarray
 
-__all__ = ["Table"]
-
 #: Number of rows that a notebook shows.
 SHOWN_ROWS = 10
 #: Number of column names that the text of a table shows in one line.

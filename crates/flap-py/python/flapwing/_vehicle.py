@@ -12,8 +12,6 @@ from ._linear import LinearModel
 from ._mistakes import refused
 from ._types import Value
 
-__all__ = ["Vehicle", "Wing"]
-
 #: The axes of the body, and the angles of a stroke plane.
 _AXES, _ANGLES = "x, y and z", ("roll", "pitch", "yaw")
 

@@ -14,8 +14,6 @@ from . import _flapwing, _mistakes, _workers
 from ._progress import Progress, one_step, shown
 from ._types import Array, Design, Executor, Places, Value
 
-__all__ = ["WrenchMap", "wrench_map"]
-
 
 @dataclass(frozen=True, eq=False)
 class WrenchMap:
