@@ -144,9 +144,10 @@ def heatmap(
             raise ValueError(f'{error}\nor combine these rows with reduce="max", "min" or "mean"') from None
     else:
         data = _reduced(data, [x, y], value, reduce)
-    picture: _Cells | _Points
+    picture: _Cells | Points
     if form_no_grid(data, x, y):
-        picture = _Points(data, value, x, y, xscale, yscale)
+        values = np.where(data.measured(), data.shown(value).values, np.nan)
+        picture = Points(data, x, y, (xscale, yscale), values)
     else:
         picture = _Cells(data, whole, value, x, y, xscale, yscale)
     colours = _scales.colours(picture.values, cmap, vmin, vmax)
@@ -156,7 +157,7 @@ def heatmap(
         ax = _style.axes_of(ax, 6.4, 4.4)
         ax.grid(False)
         colours.bar(ax, picture.draw(ax, colours), colorbar, data.shown(value).label)
-        entries = picture.mark_missing(ax)
+        entries = picture.mark_missing(ax, _missing(data, picture.rows, picture.values))
         if annotate and np.isfinite(picture.values).any():
             smallest = reduce == "min" or (reduce != "max" and better(value) < 0)
             row, place = picture.best(smallest)
@@ -211,39 +212,12 @@ def _star(ax: Axes, place: tuple[float, float], label: str) -> Line2D:
     return line
 
 
-class _Points:
-    """A map of points that form no grid."""
-
-    def __init__(self, data: Data, value: str, x: str, y: str, xscale: str | None, yscale: str | None) -> None:
-        self.data = data
-        self.values: np.ndarray = np.where(data.measured(), data.shown(value).values, np.nan)
-        self.points = Points(data, x, y, (xscale, yscale), self.values)
-
-    def draw(self, ax: Axes, colours: _scales.Colours) -> Any:
-        return self.points.draw(ax, colours)
-
-    def mark_missing(self, ax: Axes) -> list[Any]:
-        """Mark the points without a value, and return the legend entries."""
-        rows = np.arange(len(self.data))
-        missing = _missing(self.data, rows, self.values)
-        return [self.points.mark(ax, rows[mask], name) for name, mask in missing.items()]
-
-    def best(self, smallest: bool) -> tuple[int, tuple[float, float]]:
-        """Return the row with the best value of the measure, and the place of this row in the map."""
-        row = int(np.nanargmin(self.values) if smallest else np.nanargmax(self.values))
-        return row, self.points.place(row)
-
-    def finish(self, ax: Axes) -> None:
-        self.points.finish(ax)
-
-
 class _Cells:
     """A map of cells around the points of a grid."""
 
     def __init__(
         self, data: Data, whole: Data, value: str, x: str, y: str, xscale: str | None, yscale: str | None
     ) -> None:
-        self.data = data
         self.across, self.up = across, up = _Axis(data, whole, x, xscale), _Axis(data, whole, y, yscale)
         rows = np.full((up.count, across.count), -1)
         rows[up.places(data[y]), across.places(data[x])] = np.arange(len(data))
@@ -264,10 +238,10 @@ class _Cells:
             ax.contour(self.across.centres, self.up.centres, masked, [0.0], **look)
         return mesh
 
-    def mark_missing(self, ax: Axes) -> list[Any]:
+    def mark_missing(self, ax: Axes, missing: Mapping[str, np.ndarray]) -> list[Any]:
         """Fill the cells without a value, and return the legend entries."""
         entries = []
-        for name, mask in _missing(self.data, self.rows, self.values).items():
+        for name, mask in missing.items():
             # Several cells along a curve may show the same row.
             count = int(mask.sum()) if name == _NO_ROW else len(np.unique(self.rows[mask]))
             entries.append(_fill(ax, self.across.edges, self.up.edges, mask, name, count))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -40,7 +41,7 @@ class Points:
 
     def __init__(self, data: Data, x: str, y: str, scales: tuple[str | None, str | None], values: np.ndarray) -> None:
         self.x, self.y = data.shown(x), data.shown(y)
-        self.values = values
+        self.rows, self.values = np.arange(len(data)), values
         self.logs = tuple(scale == "log" for scale in scales)
         places = []
         for shown, scale, log in zip((self.x, self.y), scales, self.logs):
@@ -85,12 +86,14 @@ class Points:
             **look,
         )
 
-    def mark(self, ax: Axes, rows: np.ndarray, status: str) -> Line2D:
-        """Draw the points of the rows `rows`, which have no value, and return the legend entry."""
-        look: Any = {"marker": _MARKERS.get(status, "x"), "linestyle": "none", "color": _style.ink(ax)}
-        label = f"{status} ({len(rows)})"
-        (line,) = ax.plot(self.x.values[rows], self.y.values[rows], label=label, markersize=_style.size(0.7), **look)
-        return line
+    def mark_missing(self, ax: Axes, missing: Mapping[str, np.ndarray]) -> list[Line2D]:
+        """Mark the points without a value, and return the legend entries."""
+        entries = []
+        for status, mask in missing.items():
+            look: Any = {"marker": _MARKERS.get(status, "x"), "linestyle": "none", "color": _style.ink(ax)}
+            look |= {"markersize": _style.size(0.7), "label": f"{status} ({mask.sum()})"}
+            entries += ax.plot(self.x.values[mask], self.y.values[mask], **look)
+        return entries
 
     def finish(self, ax: Axes) -> None:
         """Label the axes of the map, and leave room around the points."""
@@ -103,6 +106,7 @@ class Points:
             ends = (low / room, high * room) if log else (low - room, high + room)
             ax.set(**{f"{which}label": shown.label, f"{which}lim": ends})
 
-    def place(self, row: int) -> tuple[float, float]:
-        """Return the place of a row's point in the picture."""
-        return float(self.x.values[row]), float(self.y.values[row])
+    def best(self, smallest: bool) -> tuple[int, tuple[float, float]]:
+        """Return the row with the best value of the measure, and the place of this row in the map."""
+        row = int(np.nanargmin(self.values) if smallest else np.nanargmax(self.values))
+        return row, (float(self.x.values[row]), float(self.y.values[row]))
