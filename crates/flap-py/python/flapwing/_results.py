@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import Any
 
 from ._mistakes import unknown
@@ -107,26 +107,17 @@ class Row(Mapping[str, Any]):
         from html import escape
 
         cells = "".join(
-            f"<tr><th>{escape(key)}</th><td>{escape(_text(value))}</td></tr>" for key, value in self.items()
+            f"<tr><th>{escape(key)}</th><td>{escape(cell_text(value))}</td></tr>" for key, value in self.items()
         )
         return f"<table>{cells}</table>"
 
 
 #: The columns of a row that are not measures.
-_ATTRIBUTES = (
-    "status",
-    "cycles",
-    "residual",
-    "period",
-    "floquet_max",
-    "stable",
-    "error_estimate",
-    "rhs_evals",
-    "reason",
-)
+_ATTRIBUTES = tuple(one.name for one in fields(Row) if one.name != "measures")
 
 
-def _text(value: Any) -> str:
+def cell_text(value: Any) -> str:
+    """Return the value of a cell as text, for notebooks."""
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 

@@ -13,7 +13,7 @@ from . import _columns, _flapwing
 from ._columns import Column
 from ._mistakes import callers_level, raised, unknown
 from ._native import NativeTable
-from ._results import Verdict
+from ._results import Verdict, cell_text
 
 if TYPE_CHECKING:
     import pandas
@@ -303,9 +303,6 @@ class Table:
         """Return the first rows of the table as HTML, for notebooks."""
         from html import escape
 
-        def text(value: Any) -> str:
-            return f"{value:.6g}" if isinstance(value, float) else str(value)
-
         units = self.units
         heads = "".join(
             f"<th>{escape(name)}{f' ({escape(units[name])})' if units[name] else ''}</th>" for name in self._columns
@@ -313,7 +310,7 @@ class Table:
         first = self[:SHOWN_ROWS]
         shown = [first[name].tolist() for name in self._columns]
         rows = "".join(
-            "<tr>" + "".join(f"<td>{escape(text(column[row]))}</td>" for column in shown) + "</tr>"
+            "<tr>" + "".join(f"<td>{escape(cell_text(column[row]))}</td>" for column in shown) + "</tr>"
             for row in range(len(first))
         )
         return (
