@@ -54,7 +54,7 @@ def text_of(fit: Solution, data_set: str | None) -> str:
     anew = {*fitted, *fit._model.keywords, *names.grid.varied}
     kept = {name: error for name, error in before["errors"].items() if name not in anew}
     told = {name: source for name, source in origins["sources"].items() if name not in anew}
-    for name, value in _set(fit, fitted).items():
+    for name, value in {**fit._model.nominal, **_derived(fit, fitted)}.items():
         known_by = [f"sd = {kept[name]!r}"] if name in kept else []
         known_by += [f"source = {_text(told[name])}"] if name in told else []
         if known_by:
@@ -100,13 +100,6 @@ def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
         if one.of_set in (None, place):
             labels[one.parameter] = one.label
     return labels
-
-
-def _set(fit: Solution, labels: dict[str, str]) -> dict[str, Any]:
-    """Return the parameters and the derived parameters of the design, and the parameters that were keywords of the call
-    of `fit`.
-    """
-    return {**fit._model.nominal, **_derived(fit, labels)}
 
 
 def _derived(fit: Solution, labels: dict[str, str]) -> dict[str, float]:

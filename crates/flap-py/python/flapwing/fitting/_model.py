@@ -127,7 +127,10 @@ class Model:
     ) -> list[Answer]:
         """Return the values of the model at operating points outside the data, for several sets of coordinates."""
         rows = _length(points)
-        columns = {name: _repeated(values, len(xs)) for name, values in points.items()}
+        columns: dict[str, Any] = {
+            name: np.tile(values, len(xs)) if isinstance(values, np.ndarray) else list(values) * len(xs)
+            for name, values in points.items()
+        }
         columns.update(self._free(asked, rows, xs))
         keywords = {name: value for name, value in self.keywords.items() if name not in columns}
         if rtol is not None:
@@ -254,10 +257,6 @@ class Model:
                 found = np.nan_to_num(found, nan=0.0, posinf=0.0, neginf=0.0)
             answers.append(Answer(values[place, asked.row, which], found, status[place, asked.row], gaps))
         return answers
-
-
-def _repeated(values: Any, times: int) -> Any:
-    return np.tile(values, times) if isinstance(values, np.ndarray) else list(values) * times
 
 
 def _length(points: Mapping[str, Any]) -> int:

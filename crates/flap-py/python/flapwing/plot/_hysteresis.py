@@ -91,7 +91,8 @@ def hysteresis(
     with _style.applied(ax):
         ax = _style.axes_of(ax)
         for i, (low, high) in enumerate(bands):
-            text = f"bistable, {_ends(low, high, x)}" if len(bands) == 1 and not given else "bistable"
+            ends = f", {low:.7g} to {high:.7g} {x.unit}".rstrip() if len(bands) == 1 and not given else ""
+            text = f"bistable{ends}"
             ax.axvspan(low, high, color=_style.BISTABLE, alpha=0.75, linewidth=0, label=text if i == 0 else f"_{text}")
         # The branch down often coincides with the branch up, so the line below is wider.
         for name, width in (("up", 1.9), ("down", 0.8)):
@@ -153,10 +154,6 @@ def _one_design(data: Data) -> None:
     raise ValueError(
         "\n".join([f"choose one of {len(curves)} designs: curve={curves[0]:g}, or by its parameters", *lines])
     )
-
-
-def _ends(low: float, high: float, x: Shown) -> str:
-    return f"{low:.7g} to {high:.7g} {x.unit}".strip()
 
 
 def _with_gaps(x: np.ndarray, y: np.ndarray, after: list[int]) -> tuple[np.ndarray, np.ndarray]:

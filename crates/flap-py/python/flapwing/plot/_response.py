@@ -338,7 +338,8 @@ class Family:
             ] + handles
             # The legend is beside new axes, because a family of responses fills all corners.
             beside = {"loc": "upper left", "bbox_to_anchor": (1.01, 1.0)}
-            title = self.by.label if given else _wrapped(self.by.label)
+            # A legend outside of the axes has a title in short lines.
+            title = self.by.label if given else self.by.label.replace(", ", ",\n").replace(" (", "\n(")
             look = {"handles": handles, "title": title, "alignment": "left", "borderaxespad": 0.0}
             _style.legend(axes[0], legend, given, outside=beside, **look)
             return
@@ -385,8 +386,3 @@ def _alone(ys: np.ndarray) -> np.ndarray:
     before = np.concatenate([[False], there[:-1]])
     after = np.concatenate([there[1:], [False]])
     return there & ~before & ~after
-
-
-def _wrapped(text: str) -> str:
-    """Return the title of a legend in short lines."""
-    return text.replace(", ", ",\n").replace(" (", "\n(")

@@ -38,7 +38,6 @@ COLOURS = _TABLE["series"]
 BLUE, VERMILLION, GREEN, PURPLE, ORANGE, SKY = COLOURS[:6]
 DARK = _TABLE["dark"]
 PLAIN = _TABLE["plain"]
-MISSING = _TABLE["missing"]
 BISTABLE = _TABLE["bistable"]
 BRANCHES = _TABLE["branches"]
 GREY = "#777777"

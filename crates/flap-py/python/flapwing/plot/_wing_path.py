@@ -163,7 +163,6 @@ class _Scene:
             [], [], color=_style.BLUE, linewidth=_style.width(2.0), solid_capstyle="round", label="chord"
         )
         (self.edge,) = ax.plot([], [], "o", color=_style.ink(ax), markersize=_style.size(1.15), label="leading edge")
-        self.arrow: Any = None
         handles = [self.edge, self.chord]
         if self.cycle.lift is not None:
             peak = float(np.abs(self.cycle.lift).max())
@@ -171,7 +170,6 @@ class _Scene:
             text = f"{self.cycle.lift_words.lower()}, up to {_labels.number(peak)} {self.cycle.lift_unit}"
             (self.shaft,) = ax.plot([], [], color=_style.VERMILLION, linewidth=_style.width(1.25), label=text.strip())
             (self.head,) = ax.plot([], [], "^", color=_style.VERMILLION, markersize=_style.size(1.15))
-            self.arrow = self.shaft
             handles.append(self.shaft)
         above = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0)}
         look: dict[str, Any] = {"handles": handles, "ncols": 3, "borderaxespad": 0.1}
@@ -201,7 +199,7 @@ class _Scene:
         self.chord.set_data([leading[0], trailing[0]], [leading[1], trailing[1]])
         self.edge.set_data([leading[0]], [leading[1]])
         moved: list[Any] = [self.past, self.chord, self.edge]
-        if self.arrow is not None and cycle.lift is not None:
+        if cycle.lift is not None:
             # The arrow begins near the centre of pressure, a quarter of the chord behind the leading edge.
             foot = 0.75 * leading + 0.25 * trailing
             length = cycle.lift[frame] * self.per_unit
