@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from ._discrepancy import Discrepancies, of_residuals
 from ._drift import between_sets
 from ._model import Answer, Model
 from ._search import Found, Target
-from ._solution import Goodness, Outlier
+from ._solution import Assessed, Outlier
 from ._structure import Layout, tests
 
 #: Limits of the probability of chi-square. Below the first limit, the model is poor. Below the second limit, the model
@@ -24,27 +23,6 @@ POOR, DOUBTFUL, TOO_GOOD = 0.001, 0.05, 0.99
 #: Smallest residual of an outlier, in standard errors: for the linear loss, and for losses that reduce the weight of
 #: outliers.
 _OUTLYING, _OUTLYING_ROBUST = 4.0, 3.0
-
-
-@dataclass(frozen=True)
-class Assessed:
-    """The errors of an estimate, and the quality of the fit."""
-
-    #: The inverse of the curvature of the cost, and the covariance of the coordinates. The covariance contains the
-    #: discrepancy of the model. Both are infinite for coordinates that the data do not determine.
-    plain: Array
-    covariance: Array
-    #: The standard error of each coordinate, divided by the standard error that belongs to the curvature of the cost.
-    #: The factor is 1 for the linear loss without discrepancy.
-    factors: Array
-    #: The derivatives of the residuals and priors with respect to the coordinates, scaled to the curvature of the cost.
-    jacobian: Array
-    discrepancy: Discrepancies
-    goodness: Goodness
-    outliers: list[Outlier]
-    #: The parameter that explains a disagreement between data sets best; empty if data sets agree.
-    drifting: str
-    quantile: float
 
 
 def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answer: Answer) -> Assessed:

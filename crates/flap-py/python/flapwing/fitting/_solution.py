@@ -215,6 +215,27 @@ class Goodness:
         return any(one.is_structured for one in self.residuals)
 
 
+@dataclass(frozen=True)
+class Assessed:
+    """The errors of an estimate, and the quality of the fit."""
+
+    #: The inverse of the curvature of the cost, and the covariance of the coordinates. The covariance contains the
+    #: discrepancy of the model. Both are infinite for coordinates that the data do not determine.
+    plain: Array
+    covariance: Array
+    #: The standard error of each coordinate, divided by the standard error that belongs to the curvature of the cost.
+    #: The factor is 1 for the linear loss without discrepancy.
+    factors: Array
+    #: The derivatives of the residuals and priors with respect to the coordinates, scaled to the curvature of the cost.
+    jacobian: Array
+    discrepancy: Discrepancies
+    goodness: Goodness
+    outliers: list[Outlier]
+    #: The parameter that explains a disagreement between data sets best; empty if data sets agree.
+    drifting: str
+    quantile: float
+
+
 def of_residuals(
     sets: Sequence[DataSet],
     units: Mapping[str, str],
@@ -281,19 +302,14 @@ class Solution:
         model: Model,
         sets: list[DataSet],
         x: Array,
-        covariance: Array,
+        assessed: Assessed,
         information: Array,
         estimates: dict[str, Estimate],
         spreads: dict[str, Spread],
-        quantile: float,
         sigma_known: bool,
         guesses: Mapping[str, float],
-        discrepancy: Discrepancies,
-        outliers: list[Outlier],
-        drifting: str,
         combinations: list[str],
         indistinct: list[str],
-        goodness: Goodness,
         unsettled: list[Unsettled],
         without_slopes: int,
         converged: bool,
@@ -302,14 +318,14 @@ class Solution:
     ) -> None:
         self.estimates, self.spreads = estimates, spreads
         self.combinations, self.indistinct = combinations, indistinct
-        self.goodness, self.unsettled, self.without_slopes = goodness, unsettled, without_slopes
+        self.goodness, self.unsettled, self.without_slopes = assessed.goodness, unsettled, without_slopes
         self.converged, self.sigma_known = converged, sigma_known
         self.held_out: HeldOut | None = None
         self.effort = Effort(1, 1, 0, 0, 0.0)
-        self._model, self._sets, self._x, self._quantile = model, sets, x, quantile
-        self._covariance, self._information, self._guesses = covariance, information, dict(guesses)
-        self.discrepancy, self._discrepancy, self.outliers = discrepancy.listed, discrepancy.noise, outliers
-        self.drifting = drifting
+        self._model, self._sets, self._x, self._quantile = model, sets, x, assessed.quantile
+        self._covariance, self._information, self._guesses = assessed.covariance, information, dict(guesses)
+        self.discrepancy, self._discrepancy = assessed.discrepancy.listed, assessed.discrepancy.noise
+        self.outliers, self.drifting = assessed.outliers, assessed.drifting
         self._loss, self._held = loss, held
 
     @property
