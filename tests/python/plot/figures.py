@@ -37,7 +37,7 @@ def fails(table, rows, status="unsettled"):
 def drawn(axes):
     """The figure is drawn without a warning, and no text leaves it."""
     figure = axes if isinstance(axes, Figure) else axes.figure
-    figure.canvas.draw()
+    figure.draw_without_rendering()
     box = figure.get_tightbbox()
     width, height = figure.get_size_inches()
     assert box.x0 >= -0.02 and box.y0 >= -0.02
