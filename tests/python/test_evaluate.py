@@ -213,8 +213,8 @@ def test_keywords_do_not_compete_with_the_grid():
 
 def test_progress_is_told():
     told = []
-    flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES}, progress=lambda done, points: told.append(points))
-    assert told and set(told) == {21}
+    flapwing.evaluate(PRESET, {"drive_frequency": FREQUENCIES}, progress=lambda *counts: told.append(counts))
+    assert told[-1] == (21, 21) and {points for _, points in told} == {21}
 
 
 def fastest(call):

@@ -114,12 +114,6 @@ def test_rows_in_a_file_are_those_of_the_table(tmp_path):
     assert warned[0].filename == __file__
 
 
-def test_rows_do_not_depend_on_threads():
-    one, two = flapwing.sweep(GRID, threads=1), flapwing.sweep(GRID, threads=2)
-    for column in one.columns:
-        np.testing.assert_array_equal(one[column], two[column], strict=True)
-
-
 def test_meta_tells_what_the_rows_are():
     table = flapwing.sweep(GRID)
     meta = table.meta
@@ -169,31 +163,20 @@ def test_inputs_are_not_overwritten(tmp_path):
     assert points.read_text() == "drive_frequency\n60\n70\n"
 
 
-def test_progress_is_told():
-    told = []
-    table = flapwing.sweep(QUICK, progress=lambda done, points: told.append((done, points)))
-    assert len(table) == 26
-    assert told and all(done <= points == 26 for done, points in told)
-    assert told == sorted(told)
-
-
 def test_progress_ends_with_all_points(tmp_path):
     told = []
 
     def tell(done, points):
         told.append((done, points))
 
-    flapwing.sweep(QUICK, progress=tell)
-    assert told[-1] == (26, 26)
+    assert len(flapwing.sweep(QUICK, progress=tell)) == 26
+    assert told[-1] == (26, 26) and told == sorted(told) and all(points == 26 for _, points in told)
     told.clear()
     flapwing.sweep(QUICK, out=tmp_path / "rows.csv", progress=tell)
     assert told[-1] == (26, 26)
     told.clear()
     flapwing.sweep(QUICK, out=tmp_path / "rows.csv", progress=tell)
     assert told == [(26, 26)]
-    told.clear()
-    flapwing.evaluate("ozaki2018-large", {"drive_frequency": [100.0, 105.0]}, progress=tell)
-    assert told[-1] == (2, 2)
 
 
 def test_a_bar_is_shown(capsys):
@@ -228,17 +211,15 @@ def test_an_exception_in_progress_ends_the_sweep(tmp_path):
 
 
 def test_an_interrupted_sweep_goes_on_to_the_same_bytes(tmp_path):
-    calls = iter(range(3))
-
     def stop(done, points):
-        if next(calls, None) is None:
+        if done >= 600:
             raise RuntimeError("enough")
 
-    grid = QUICK.replace("n = 26", "n = 40000")
+    grid = QUICK.replace("n = 26", "n = 20001")
     out = tmp_path / "rows.csv"
     with pytest.raises(RuntimeError):
-        flapwing.sweep(grid, out=out, progress=stop)
-    assert len(flapwing.sweep(grid, out=out)) == 40000
+        flapwing.sweep(grid, out=out, threads=1, progress=stop)
+    assert len(flapwing.sweep(grid, out=out)) == 20001
     flapwing.sweep(grid, out=tmp_path / "whole.csv")
     assert out.read_bytes() == (tmp_path / "whole.csv").read_bytes()
 
@@ -301,20 +282,6 @@ def test_damage_is_ignored_with_a_warning(tmp_path):
     assert flapwing.read(alone).meta["verified"] is False
 
 
-def test_unfinished_results_are_read_with_a_warning(tmp_path):
-    path = tmp_path / "rows.csv"
-
-    def stop(done, _):
-        if done >= 8:
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        flapwing.sweep(QUICK.replace("n = 26", "n = 20001"), out=path, threads=1, progress=stop)
-    with pytest.warns(UserWarning, match=r"rows.csv is unfinished: \d+ points done so far"):
-        table = flapwing.read(path)
-    assert 0 < len(table) < 20001 and table.meta["verified"] is False
-
-
 def test_damage_of_unfinished_results_is_noticed(tmp_path):
     """Rows that the journal records are gone, or the sidecar is that of another sweep."""
 
@@ -338,8 +305,9 @@ def test_damage_of_unfinished_results_is_noticed(tmp_path):
     assert "grid" not in table.meta and len(table) > 0
 
     sidecar.write_bytes(own)
-    with pytest.warns(UserWarning, match="rows.csv is unfinished"):
-        assert len(flapwing.read(path)) == len(table)
+    with pytest.warns(UserWarning, match=r"rows.csv is unfinished: \d+ points done so far"):
+        unfinished = flapwing.read(path)
+    assert len(unfinished) == len(table) and unfinished.meta["verified"] is False
     path.write_bytes(path.read_bytes()[:-1])
     with pytest.raises(ValueError, match=r"rows.csv is damaged: it lacks \d+ rows? that its journal records"):
         flapwing.read(path)
