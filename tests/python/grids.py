@@ -1,4 +1,4 @@
-"""A grid that several files of tests run."""
+"""Grids that several files of tests run."""
 
 #: A grid with an axis of options, derived values, conditions, own measures, and points that fail in several ways.
 GRID = """\
@@ -26,3 +26,6 @@ strong = "lift_mean_mn > 2"
 newton = false
 max_cycles = 24
 """
+
+#: Some seconds of work for two workers.
+LONG = 'preset = "ozaki2018-large"\n[axes]\ndrive_voltage_pp = [60, 80]\ndrive_frequency = { from = 95, to = 120, n = 4000 }\n'

@@ -8,13 +8,9 @@ import flapwing
 import numpy as np
 import pytest
 from compare import is_same
-from grids import GRID
+from grids import GRID, LONG
 
 distributed = pytest.importorskip("distributed")
-
-#: Some seconds of work for two workers.
-LONG = 'preset = "ozaki2018-large"\n[axes]\ndrive_voltage_pp = [60, 80]\ndrive_frequency = { from = 95, to = 120, n = 4000 }\n'
-
 
 #: Rows with derivatives: by derived parameters too, of a formula, and with points that have none.
 SLOPES = """\

@@ -11,9 +11,7 @@ import flapwing
 import numpy as np
 import pytest
 from flapwing import _workers
-from grids import GRID
-
-LONG = 'preset = "ozaki2018-large"\n[axes]\ndrive_voltage_pp = [60, 80]\ndrive_frequency = { from = 95, to = 120, n = 4000 }\n'
+from grids import GRID, LONG
 
 
 @pytest.fixture(scope="module")
