@@ -86,7 +86,7 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
         good,
         _listed(sets, scaled, is_far),
         between_sets(model.space, model.asked.of_set[fitted], scaled[fitted], slopes[fitted]),
-        _quantile(sigma_known(sets), min(good.freedom, discrepancy.freedom)),
+        _quantile(discrepancy.freedom if sigma_known(sets) else min(good.freedom, discrepancy.freedom)),
     )
 
 
@@ -123,10 +123,11 @@ def _branches(sets: list[DataSet]) -> Places:
     return np.concatenate([np.full(len(one) * len(one.measured), known.index(one.branch), np.intp) for one in sets])
 
 
-def _quantile(sigma_known: bool, freedom: float) -> float:
-    from scipy.stats import norm, t
+def _quantile(freedom: float) -> float:
+    """Return the quantile for 95 % intervals: that of the normal distribution if the freedom is infinite."""
+    from scipy.stats import t
 
-    return float(norm.ppf(0.975) if sigma_known else t.ppf(0.975, max(1, freedom)))
+    return float(t.ppf(0.975, max(1.0, freedom)))
 
 
 def sigma_known(sets: list[DataSet]) -> bool:
