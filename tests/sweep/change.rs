@@ -69,7 +69,7 @@ fn vehicle(keys: &str) -> Plan {
 }
 
 fn place(plan: &Plan, name: &str) -> usize {
-    Parameter::index(plan.parameters(), name).unwrap()
+    Parameter::index(plan.parameters(), name).expect("a parameter of the model")
 }
 
 /// An unset parameter of one wing has the value of all wings, which a formula may give.
