@@ -60,8 +60,8 @@ pub(crate) fn fly<'py>(
     })?;
     let record = record.map_err(|error: FlightError| PyValueError::new_err(error.to_string()))?;
     let columns = vehicle_columns(&chosen);
-    let parameters = chosen.plan.parameters();
-    let inputs = request.inputs.iter().map(|input| (&input.name, &parameters[input.parameter]));
+    let table = chosen.plan.parameters();
+    let inputs = request.inputs.iter().map(|input| (&input.name, &table[input.parameter]));
     let units = inputs.clone().map(|(name, parameter)| (name, parameter.unit)).into_py_dict(py)?;
     let inputs = inputs.map(|(name, parameter)| (name.clone(), parameter.name.to_owned()));
     let inputs: Vec<(String, String)> = inputs.collect();
