@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 
 /// Return the colours of pictures.
 ///
-/// `series` is a list, and `branches` has one colour for each branch. `dark`, `plain`, `missing` and `bistable` are single
+/// `series` is a list, and `branches` has one colour for each branch. `dark`, `plain` and `bistable` are single
 /// colours.
 #[pyfunction]
 pub(crate) fn colours(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
@@ -23,7 +23,6 @@ pub(crate) fn colours(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     found.set_item("branches", branches)?;
     found.set_item("dark", table::DARK)?;
     found.set_item("plain", table::PLAIN)?;
-    found.set_item("missing", table::MISSING)?;
     found.set_item("bistable", table::BISTABLE)?;
     Ok(found)
 }
@@ -84,15 +83,14 @@ pub(crate) fn ways(up: PyWay<'_>, down: PyWay<'_>) -> PyResult<Ways> {
     Ok(Ways { bands, up, down })
 }
 
-/// A histogram as a dictionary: edges of the bars, heights of the bars, and pairs of a percentage and its percentile.
+/// A histogram as a dictionary: edges and heights of the bars.
 #[derive(IntoPyObject)]
 pub(crate) struct Bars<'py> {
     edges: Bound<'py, PyArray1<f64>>,
     counts: Bound<'py, PyArray1<f64>>,
-    percentiles: Vec<(u32, f64)>,
 }
 
-/// Return a histogram: edges and heights of the bars, and percentiles. Return None if no value is finite.
+/// Return a histogram: edges and heights of the bars. Return None if no value is finite.
 #[pyfunction]
 #[pyo3(signature = (values, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
@@ -103,7 +101,6 @@ pub(crate) fn bars<'py>(py: Python<'py>, values: PyReadonlyArray1<'py, f64>) -> 
         Bars {
             edges: PyArray1::from_vec(py, found.edges),
             counts: PyArray1::from_iter(py, counts),
-            percentiles: sample::MARKED.into_iter().zip(found.marked).collect(),
         }
     }))
 }

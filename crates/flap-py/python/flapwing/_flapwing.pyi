@@ -532,7 +532,7 @@ def better(name: str, /) -> int:
 def colours() -> NativeColours:
     """Return the colours of pictures.
 
-    `series` is a list, and `branches` has one colour for each branch. `dark`, `plain`, `missing` and `bistable` are single
+    `series` is a list, and `branches` has one colour for each branch. `dark`, `plain` and `bistable` are single
     colours.
     """
 
@@ -562,7 +562,7 @@ def ways(
     """
 
 def bars(values: np.ndarray[Any, Any], /) -> NativeBars | None:
-    """Return a histogram: edges and heights of the bars, and percentiles. Return None if no value is finite."""
+    """Return a histogram: edges and heights of the bars. Return None if no value is finite."""
 
 def correlations(parameters: list[np.ndarray[Any, Any]], measure: np.ndarray[Any, Any], /) -> list[tuple[int, float]]:
     """Return the index of each parameter and its rank correlation with a measure, in falling order of absolute value.

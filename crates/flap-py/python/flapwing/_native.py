@@ -89,7 +89,6 @@ class NativeColours(TypedDict):
     branches: dict[str, str]
     dark: str
     plain: str
-    missing: str
     bistable: str
 
 
@@ -102,13 +101,10 @@ class NativeWays(TypedDict):
 
 
 class NativeBars(TypedDict):
-    """A histogram: the edges of the bars, the heights of the bars, and percentiles as pairs of a percentage and a
-    value.
-    """
+    """A histogram: the edges and the heights of its bars."""
 
     edges: Floats
     counts: Floats
-    percentiles: list[tuple[int, float]]
 
 
 class NativeIdentity(TypedDict):
