@@ -76,7 +76,7 @@ pub(crate) fn quantity(name: &str, error: &UnitError) -> PyErr {
     with_help(error.message(&format!("`{name}`")), error.help())
 }
 
-/// Returns a `ValueError` with a message, and with advice on a line of its own.
+/// Returns a `ValueError` with a message, and with advice on a separate line.
 pub(crate) fn with_help(message: impl Display, help: Option<impl Display>) -> PyErr {
     let help = help.map_or_else(String::new, |help| format!("\n{help}"));
     PyValueError::new_err(format!("{message}{help}"))

@@ -124,7 +124,7 @@ def _branches(sets: list[DataSet]) -> Places:
 
 
 def _quantile(freedom: float) -> float:
-    """Return the quantile for 95 % intervals: that of the normal distribution if the freedom is infinite."""
+    """Return the quantile for 95 % intervals. For infinite freedom, this is the quantile of the normal distribution."""
     from scipy.stats import t
 
     return float(t.ppf(0.975, max(1.0, freedom)))
