@@ -55,7 +55,7 @@ impl<'a> Job<'a> {
             if !has_journal && place == self.out && self.lacks_refinement(sidecar) {
                 return self.continue_merged(sidecar);
             }
-            return self.is_complete(place, sidecar, has_journal);
+            return self.end_complete(place, sidecar, has_journal);
         }
         if !has_journal {
             return match sidecar {
@@ -77,11 +77,11 @@ impl<'a> Job<'a> {
         Ok(self.writing(target, before, Some(lost), locks))
     }
 
-    /// Ends the job if the sidecar of the results at `place` records complete results.
+    /// Ends the job, whose results at `place` are complete.
     ///
     /// `has_journal` is true only for a run that was killed at its very end. In this case, the last steps of the run
     /// are repeated; in all other cases, the function writes nothing.
-    fn is_complete<'b>(
+    fn end_complete<'b>(
         &self,
         place: &Path,
         sidecar: &Sidecar,
@@ -91,17 +91,17 @@ impl<'a> Job<'a> {
         let rows = if place.exists() { place } else { &self.out };
         if !has_journal {
             output::remove_unused_locks(&self.out);
-            return self.compared(rows, sidecar);
+            return self.complete_if_same_rows(rows, sidecar);
         }
         let _lock = output::lock(place)?;
-        let outcome = self.compared(rows, sidecar)?;
+        let outcome = self.complete_if_same_rows(rows, sidecar)?;
         self.complete(place)?;
         Ok(outcome)
     }
 
     /// Ends the job if the complete results at `rows` contain the rows of this job and are undamaged. If the results
     /// contain other rows or are damaged, the function returns an error.
-    fn compared<'b>(&self, rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
+    fn complete_if_same_rows<'b>(&self, rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
         let changes = sidecar.identity.differences(&self.identity());
         if !changes.is_empty() {
             let changed = self.changed_line(sidecar);
@@ -132,7 +132,7 @@ impl<'a> Job<'a> {
     ///
     /// The rows are copied into a file that replaces the results when it is complete.
     fn continue_merged(&'a self, sidecar: &Sidecar) -> Result<Begun<'a>, JobError> {
-        self.compared(&self.out, sidecar)?;
+        self.complete_if_same_rows(&self.out, sidecar)?;
         let format = Format::of(&self.out)?;
         let mut locks = vec![output::lock(&self.out)?];
         let mut target = self.start_beside(format, &mut locks)?;
