@@ -131,7 +131,7 @@ fn is_damaged(path: &Path) -> bool {
 fn is_complete(path: &Path) -> bool {
     let sidecar = Sidecar::read(&sidecar_of(path)).unwrap();
     let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
-    let options = SessionOptions { run: RunOptions::default(), checkpoint: Duration::ZERO };
+    let options = SessionOptions { run: RunOptions::default(), checkpoint_interval: Duration::ZERO };
     let job = Job { plan: &plan, out: path.to_owned(), begin: Begin::Continue, options, origin: None };
     matches!(job::begin(&job), Ok(Begun::Complete { .. }))
 }

@@ -107,7 +107,7 @@ fn a_model_that_breaks_its_contract_is_an_error() {
 
 /// Runs a job that stops with the curve of index `stop_at`. `None` if the job is already complete.
 fn run(plan: &Plan, out: &Path, begin: Begin, stop_at: u64) -> Result<Option<Done>, JobError> {
-    let options = SessionOptions { run: options(2, 100), checkpoint: Duration::from_millis(5) };
+    let options = SessionOptions { run: options(2, 100), checkpoint_interval: Duration::from_millis(5) };
     let job = Job { plan, out: out.to_owned(), begin, options, origin: None };
     let mut writing = match job::begin(&job)? {
         Begun::Writing(writing) => writing,

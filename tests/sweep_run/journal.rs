@@ -23,7 +23,7 @@ use crate::support::{csv, options, plan, plan_with, resume};
 
 /// Session options with a checkpoint at every opportunity.
 pub(crate) fn often() -> SessionOptions {
-    SessionOptions { run: options(2, 100), checkpoint: Duration::ZERO }
+    SessionOptions { run: options(2, 100), checkpoint_interval: Duration::ZERO }
 }
 
 pub(crate) fn start(path: &Path, plan: &Plan) -> Session {
@@ -37,7 +37,7 @@ pub(crate) fn run_to(session: &mut Session, plan: &Plan, before: Summary, stop_a
     let mut sink = Crash { session, stop_at };
     match resume(plan, &often().run, before, &mut sink, &AtomicBool::new(false), &mut |_| {}) {
         Ok(summary) => {
-            session.close(&summary).unwrap();
+            session.complete(&summary).unwrap();
             Some(summary)
         }
         Err(RunError::Sink(_)) => None,

@@ -49,7 +49,7 @@ pub(crate) fn sweep<'py>(
         None if restart => Err(PyValueError::new_err("restart requires a file of results: give out")),
         None => into_columns(py, plan, &options, progress, chunks.as_ref()),
         Some(out) => {
-            let options = SessionOptions { run: options, checkpoint: CHECKPOINT };
+            let options = SessionOptions { run: options, checkpoint_interval: CHECKPOINT };
             let job = Job { plan, out, begin, options, origin: None };
             into_file(py, &job, progress, chunks.as_ref())
         }

@@ -54,7 +54,7 @@ pub(crate) fn run_and_summarize(
         let done = Done { summary, rows_before: 0, seconds: begun.elapsed().as_secs_f64(), place: None };
         return Ok(ended(plan, &done, Path::new("stdout"), work));
     }
-    let options = SessionOptions { run: options, checkpoint: work.checkpoint };
+    let options = SessionOptions { run: options, checkpoint_interval: work.checkpoint };
     let job = Job { plan, out, begin, options, origin };
     let place = job.out.display();
     let failed = |error| Failure::of_job(error, &job.out);

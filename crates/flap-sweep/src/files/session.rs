@@ -35,7 +35,7 @@ pub struct SessionOptions {
     pub run: RunOptions,
     /// Time between checkpoints. Each checkpoint waits for the disk twice. A run that is killed loses the rows since
     /// the last checkpoint.
-    pub checkpoint: Duration,
+    pub checkpoint_interval: Duration,
 }
 
 /// Writer of the rows of a plan to a file, such that the run can be resumed.
@@ -48,9 +48,9 @@ pub struct Session {
     /// Rows of earlier runs: the file with these rows, the format of the file, and the number of bytes of the rows.
     earlier: Option<(PathBuf, Format, u64)>,
     /// Checksum of a Parquet file, once rows have been converted to columns.
-    columns: Option<FileSum>,
+    parquet_sum: Option<FileSum>,
     journal: Journal,
-    checkpoint: Duration,
+    checkpoint_interval: Duration,
     last_checkpoint: Instant,
     began: Instant,
     seconds_before: f64,
@@ -189,9 +189,9 @@ impl Session {
             rows,
             provenance: Provenance::of(plan, &Identity::of(plan, &options.run)),
             earlier: None,
-            columns: None,
+            parquet_sum: None,
             journal,
-            checkpoint: options.checkpoint,
+            checkpoint_interval: options.checkpoint_interval,
             last_checkpoint: now,
             began: now,
             seconds_before: 0.0,
@@ -213,7 +213,7 @@ impl Session {
         }
         self.seconds_before += seconds;
         self.earlier = Some((path.to_owned(), format, u64::MAX));
-        if self.rows.may_be_cut() { self.note(summary) } else { Ok(()) }
+        if self.rows.may_be_cut() { self.write_checkpoint(summary) } else { Ok(()) }
     }
 
     /// Returns the running time of all sessions so far (s).
@@ -232,23 +232,23 @@ impl Session {
     /// # Errors
     /// - [`io::ErrorKind::Other`] if a file was removed or replaced.
     /// - The error of the operating system if a file cannot be written.
-    pub fn close(&mut self, summary: &Summary) -> io::Result<()> {
+    pub fn complete(&mut self, summary: &Summary) -> io::Result<()> {
         if !summary.is_interrupted() || self.rows.may_be_cut() {
-            self.note(summary)?;
+            self.write_checkpoint(summary)?;
         }
         if !summary.is_interrupted() && self.format.is_columnar() {
             disk::empty(&self.results)?;
             self.results.seek(SeekFrom::Start(0))?;
             let results = self.results.try_clone()?;
             let text = self.checksums().text;
-            self.columns = assemble(&self.rows_path(), results, &self.provenance, &text)?.file;
+            self.parquet_sum = assemble(&self.rows_path(), results, &self.provenance, &text)?.file;
         }
         Ok(())
     }
 
     /// Returns the checksums of complete results.
     pub fn checksums(&self) -> Checksums {
-        self.rows.checksums(self.columns.clone())
+        self.rows.checksums(self.parquet_sum.clone())
     }
 
     /// Returns the path of the results.
@@ -257,7 +257,7 @@ impl Session {
     }
 
     /// Writes the rows to the disk (fsync), then adds a checkpoint after these rows.
-    fn note(&mut self, so_far: &Summary) -> io::Result<()> {
+    fn write_checkpoint(&mut self, so_far: &Summary) -> io::Result<()> {
         self.rows.flush()?;
         disk::check_in_place(&self.results, &self.path)?;
         disk::check_in_place(self.rows.file(), &self.rows_path())?;
@@ -293,8 +293,8 @@ impl Sink for Session {
     }
 
     fn done(&mut self, so_far: &Summary) -> io::Result<()> {
-        if self.rows.may_be_cut() && self.last_checkpoint.elapsed() >= self.checkpoint {
-            self.note(so_far)?;
+        if self.rows.may_be_cut() && self.last_checkpoint.elapsed() >= self.checkpoint_interval {
+            self.write_checkpoint(so_far)?;
         }
         Ok(())
     }

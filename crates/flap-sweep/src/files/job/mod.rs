@@ -227,7 +227,7 @@ impl Writing<'_> {
             }
         };
         let closed = ended.and_then(|summary| {
-            session.close(&summary)?;
+            session.complete(&summary)?;
             Ok(summary)
         });
         let summary = match closed {
