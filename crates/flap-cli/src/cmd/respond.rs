@@ -65,7 +65,8 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
 /// Prints the summary of each curve without writing rows.
 fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> Result<Exit, Failure> {
     let options = RunOptions::with_threads(args.begin.work.threads);
-    let summary = job::work(plan, &options, Summary::default(), &mut Nowhere, Some(&mut verdicts))?;
+    let summary =
+        job::run_with_progress(plan, &options, Summary::default(), &mut Nowhere, Some(&mut verdicts))?;
     if args.format != OutputFormat::Table {
         print::table(args.format, &verdicts.names(), &verdicts.rows, String::new)?;
     }
@@ -74,7 +75,7 @@ fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> 
         console::say(&format!("interrupted: {done} of {designs} designs are done"));
         return Ok(Exit::Interrupted);
     }
-    Ok(job::complete(&summary, &args.begin.work))
+    Ok(job::exit_code(&summary, &args.begin.work))
 }
 
 /// A sink that ignores the rows that it receives.

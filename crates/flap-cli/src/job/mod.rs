@@ -13,5 +13,5 @@ pub(crate) use open::{
     open, open_recorded, plan_of, read_sidecar, recorded, require_checkpoint, require_own_sidecar, tell,
     tell_missed, with_refinement,
 };
-pub(crate) use run::{complete, run, run_and_summarize, work};
+pub(crate) use run::{exit_code, run, run_and_summarize, run_with_progress};
 pub(crate) use verdicts::{Lines, Verdicts};

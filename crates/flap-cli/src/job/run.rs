@@ -50,7 +50,7 @@ pub(crate) fn run_and_summarize(
         let begun = Instant::now();
         let mut sink = CsvSink::new(Layout::of(plan).names(), io::stdout());
         let mut verdicts = Verdicts::of(plan, OutputFormat::Table, Lines::Stderr);
-        let summary = self::work(plan, &options, Summary::default(), &mut sink, verdicts.as_mut())?;
+        let summary = run_with_progress(plan, &options, Summary::default(), &mut sink, verdicts.as_mut())?;
         let done = Done { summary, rows_before: 0, seconds: begun.elapsed().as_secs_f64(), place: None };
         return Ok(ended(plan, &done, Path::new("stdout"), work));
     }
@@ -64,7 +64,7 @@ pub(crate) fn run_and_summarize(
             console::say(&format!(
                 "{place} is complete: nothing is left to run; use --restart to run its points again"
             ));
-            return Ok(exit(all_periodic, work));
+            return Ok(exit_code_of(all_periodic, work));
         }
     };
     if let Some(error) = writing.unlocked() {
@@ -80,7 +80,7 @@ pub(crate) fn run_and_summarize(
         console::say(&format!("{} of {points} points of {place} are done", before.done()));
     }
     let mut verdicts = Verdicts::of(plan, format, Lines::StdoutBesideFile);
-    let ran = self::work(plan, &job.options.run, before, writing.sink(), verdicts.as_mut());
+    let ran = run_with_progress(plan, &job.options.run, before, writing.sink(), verdicts.as_mut());
     let done = writing.finish(ran).map_err(failed)?;
     if let Some(verdicts) = verdicts.filter(|_| format != OutputFormat::Table) {
         print::table(format, &verdicts.names(), &verdicts.rows, String::new)?;
@@ -105,22 +105,22 @@ fn ended(plan: &Plan, done: &Done, out: &Path, work: &WorkArgs) -> Exit {
         }
         return Exit::Interrupted;
     }
-    complete(&done.summary, work)
+    exit_code(&done.summary, work)
 }
 
 /// Returns the exit code of a run that was not interrupted.
-pub(crate) fn complete(summary: &Summary, work: &WorkArgs) -> Exit {
-    exit(summary.all_periodic(), work)
+pub(crate) fn exit_code(summary: &Summary, work: &WorkArgs) -> Exit {
+    exit_code_of(summary.all_periodic(), work)
 }
 
-fn exit(all_periodic: bool, work: &WorkArgs) -> Exit {
+fn exit_code_of(all_periodic: bool, work: &WorkArgs) -> Exit {
     if work.strict && !all_periodic { Exit::NotAll } else { Exit::Done }
 }
 
 /// Runs the plan with a progress bar, until a signal stops it.
 ///
 /// If the plan follows a parameter, `verdicts` summarizes each curve.
-pub(crate) fn work(
+pub(crate) fn run_with_progress(
     plan: &Plan,
     options: &RunOptions,
     before: Summary,
