@@ -62,11 +62,8 @@ fn a_model_with_rows_alone_says_so() {
     assert_eq!(experiments, Unfinished::NoExperiments { model: "backwards" });
 
     let set = Backend::best();
-    assert_eq!(Backwards.row(&PointRun::new(set, &SOLVER, &[2.0])).unwrap().reason.as_deref(), Some("2"));
-    assert_eq!(
-        Backwards.row(&PointRun::new(set, &SOLVER, &[2.0]).until(&|| true)),
-        Err(Unfinished::Interrupted)
-    );
+    let row = Backwards.run_point(&PointRun::new(set, &SOLVER, &[2.0]), None);
+    assert_eq!(row.reason.as_deref(), Some("2"));
 }
 
 #[test]

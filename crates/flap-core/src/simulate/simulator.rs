@@ -113,15 +113,6 @@ pub trait Simulator: Rows {
         false
     }
 
-    /// Returns the row of a point from rest, see [`Rows::run_point`].
-    ///
-    /// # Errors
-    /// [`Unfinished::Interrupted`] if the run is interrupted. There is no row then.
-    fn row(&self, run: &PointRun<'_>) -> Result<Row, Unfinished> {
-        let row = self.run_point(run, None);
-        if (run.interrupted)() { Err(Unfinished::Interrupted) } else { Ok(row) }
-    }
-
     /// Returns the trait object for derivatives of rows.
     ///
     /// # Errors
