@@ -1,7 +1,7 @@
 //! Derivatives of measures with respect to parameters: names and units of columns, and sizes of changes.
 
 use flap_core::parameter::{Kind, Parameter};
-use flap_core::simulate::Simulator;
+use flap_core::simulate::{NoSlope, Simulator};
 use flap_core::vehicle::standing;
 
 /// Change of a parameter to which derivatives refer.
@@ -42,6 +42,24 @@ pub fn parts(column: &str) -> Option<(&str, &str, Per)> {
     [("_per_pct_", Per::Cent), ("_per_si_", Per::Unit)]
         .into_iter()
         .find_map(|(between, per)| rest.split_once(between).map(|(of, by)| (of, by, per)))
+}
+
+/// Returns the number that stands for a set of reasons for missing derivatives, one bit per reason; NaN for the empty
+/// set. The reasons are stored as a number because the measures of a row are numbers.
+pub(crate) fn gap_code(reasons: impl Iterator<Item = NoSlope>) -> f64 {
+    let set = reasons.fold(0_u32, |set, reason| set | 1 << reason as u32);
+    if set == 0 { f64::NAN } else { f64::from(set) }
+}
+
+/// Returns the reasons in the set that [`gap_code`] turned into `code`, in the order of [`NoSlope::ALL`].
+pub(crate) fn reasons_of(code: f64) -> impl Iterator<Item = NoSlope> {
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "a set of a few bits; NaN gives 0"
+    )]
+    let set = code as u32;
+    NoSlope::ALL.into_iter().filter(move |reason| set >> *reason as u32 & 1 == 1)
 }
 
 /// Returns the unit of a derivative: the measure's unit `of`, per per cent or per unit `by` of the parameter.

@@ -9,7 +9,7 @@ use flap_core::vehicle::standing;
 use serde::{Deserialize, Serialize};
 
 use super::{Run, RunError, RunOptions, Worker};
-use crate::derivative::{Per, is_least, moved, size};
+use crate::derivative::{Per, gap_code, is_least, moved, size};
 use crate::plan::gradient::Gradient;
 use crate::plan::{Admission, Plan};
 
@@ -157,8 +157,8 @@ const OWN_SHARE: f64 = 1e-5;
 
 /// Adds the measures and derivatives of the plan to `row`, which the model has computed for `point`.
 ///
-/// The last added value contains the reasons for missing derivatives, as a sum of powers of two by their index in
-/// [`NoSlope::ALL`]. The sum is NaN if no derivative is missing. Returns false if the run was interrupted.
+/// The last added value contains the reasons for missing derivatives, see [`gap_code`]. Returns false if the run was
+/// interrupted.
 pub fn add_columns(
     plan: &Plan,
     instructions: Backend,
@@ -192,13 +192,8 @@ pub fn add_columns(
         Err(_) => vec![vec![Err(NoSlope::Lost); plan.rows().columns().len()]; changes.len()],
     };
     let derivatives = derivatives(plan, gradient, point, &row.measures, &slopes);
-    let mut reasons: Vec<NoSlope> = derivatives.iter().filter_map(|derivative| derivative.err()).collect();
-    reasons.sort_unstable();
-    reasons.dedup();
     row.measures.extend(derivatives.iter().map(|derivative| derivative.unwrap_or(f64::NAN)));
-    let places = NoSlope::ALL.iter().enumerate().filter(|(_, reason)| reasons.contains(reason));
-    let set: u32 = places.map(|(place, _)| 1 << place).sum();
-    row.measures.push(if set == 0 { f64::NAN } else { f64::from(set) });
+    row.measures.push(gap_code(derivatives.iter().filter_map(|derivative| derivative.err())));
     true
 }
 

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use flap_core::parameter::{self, Parameter};
 use flap_core::simulate::{NoSlope, Point, Row};
 
-use crate::derivative::{self, column_name, meaning};
+use crate::derivative::{self, column_name, meaning, reasons_of};
 use crate::notation::{expression, text};
 use crate::plan::Plan;
 
@@ -182,19 +182,13 @@ fn bistable() -> Column {
     Column::new(BISTABLE, "", CellKind::Flag, doc)
 }
 
-/// Returns the reasons in a set from the last measure of a row, with a bit for each index in [`NoSlope::ALL`]:
-/// `edge;zero`.
-fn gap(set: f64) -> &'static str {
-    static SETS: LazyLock<Vec<String>> = LazyLock::new(|| {
-        let reasons = NoSlope::ALL.into_iter().enumerate();
-        let words = |set: usize| {
-            let of_set = reasons.clone().filter(|(place, _)| set >> place & 1 == 1);
-            of_set.map(|(_, reason)| reason.name()).collect::<Vec<_>>().join(";")
-        };
-        (0..1 << NoSlope::ALL.len()).map(words).collect()
+/// Returns the words for the reasons with this code, see [`reasons_of`]: `edge;zero`.
+fn gap(code: f64) -> &'static str {
+    static TEXTS: LazyLock<Vec<String>> = LazyLock::new(|| {
+        let words = |code| reasons_of(f64::from(code)).map(NoSlope::name).collect::<Vec<_>>().join(";");
+        (0..1_u32 << NoSlope::ALL.len()).map(words).collect()
     });
-    // NaN is the empty set.
-    SETS.iter().enumerate().find(|(other, _)| *other as f64 == set).map_or("", |(_, words)| words.as_str())
+    TEXTS.iter().zip(0_u32..).find(|(_, other)| f64::from(*other) == code).map_or("", |(text, _)| text)
 }
 
 /// Returns the columns that rows of every model have: index, status, and columns about the run.

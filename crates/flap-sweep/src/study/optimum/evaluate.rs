@@ -2,11 +2,13 @@
 
 use std::cell::{Cell, RefCell};
 use std::cmp::Ordering;
+use std::collections::BTreeSet;
 use std::rc::Rc;
 
 use flap_core::simulate::{Interrupt, NoSlope, Row, Status};
 
 use super::problem::Problem;
+use crate::derivative::reasons_of;
 use crate::plan::Plan;
 use crate::run::{Outcome, RunError, RunOptions, alone};
 
@@ -89,8 +91,8 @@ pub(super) struct Evaluator<'p> {
     /// Number of computed rows, and number of computed rows with derivatives.
     pub(super) rows: Cell<u64>,
     pub(super) sloped: Cell<u64>,
-    /// Reasons for missing derivatives, as bits by their places in [`NoSlope::ALL`].
-    missing: Cell<u32>,
+    /// Reasons for missing derivatives.
+    missing: RefCell<BTreeSet<NoSlope>>,
     /// True if differences of rows have replaced derivatives.
     pub(super) has_differences: Cell<bool>,
     failure: RefCell<Option<RunError>>,
@@ -111,7 +113,7 @@ impl<'p> Evaluator<'p> {
             known: RefCell::default(),
             rows: Cell::new(0),
             sloped: Cell::new(0),
-            missing: Cell::new(0),
+            missing: RefCell::default(),
             has_differences: Cell::new(false),
             failure: RefCell::new(None),
         }
@@ -119,8 +121,7 @@ impl<'p> Evaluator<'p> {
 
     /// The reasons for missing derivatives.
     pub(super) fn missing(&self) -> Vec<NoSlope> {
-        let set = self.missing.get();
-        (0..).zip(NoSlope::ALL).filter(|(place, _)| set >> place & 1 == 1).map(|(_, reason)| reason).collect()
+        self.missing.borrow().iter().copied().collect()
     }
 
     /// The error that ended the work, if an error ended the work.
@@ -195,15 +196,8 @@ impl<'p> Evaluator<'p> {
         let has_row = is_sloped && row.measures.len() > first + quantities * variables.len();
         if has_row {
             self.sloped.set(self.sloped.get() + 1);
-            let reasons = row.measures[first + quantities * variables.len()];
-            if reasons.is_finite() {
-                #[expect(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_sign_loss,
-                    reason = "a sum of small powers of two"
-                )]
-                self.missing.set(self.missing.get() | reasons as u32);
-            }
+            let code = row.measures[first + quantities * variables.len()];
+            self.missing.borrow_mut().extend(reasons_of(code));
         }
         let mut lacks_slopes = false;
         let mut of = vec![vec![f64::NAN; variables.len()]; quantities];
