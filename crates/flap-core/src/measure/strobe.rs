@@ -64,14 +64,7 @@ impl<const N: usize> Strobe<N> {
         if self.cycles < periods {
             return f64::NAN;
         }
-        let before = &self.states[periods as usize];
-        let mut change = 0.0_f64;
-        let mut size = 0.0_f64;
-        for i in 0..N {
-            change = change.max((self.states[0][i] - before[i]).abs() / self.scale[i]);
-            size = size.max(self.states[0][i].abs().max(before[i].abs()) / self.scale[i]);
-        }
-        if change == 0.0 { 0.0 } else { change / size.min(1.0) }
+        residual(&self.states[periods as usize], &self.states[0], &self.scale)
     }
 
     /// Returns the latest state.
@@ -88,4 +81,20 @@ impl<const N: usize> Strobe<N> {
     pub fn cycles(&self) -> u32 {
         self.cycles
     }
+}
+
+/// Returns the distance of two states: the largest component of their difference, in units of the states' typical
+/// sizes.
+pub(crate) fn distance<const N: usize>(one: &[f64; N], other: &[f64; N], scale: &[f64; N]) -> f64 {
+    (0..N).fold(0.0, |largest, i| largest.max((one[i] - other[i]).abs() / scale[i]))
+}
+
+/// Returns the change of the state over a period from `y` to `end`: the largest component, in units of the states'
+/// typical sizes.
+///
+/// In a motion smaller than these sizes, the change is relative to the motion's own size.
+pub(crate) fn residual<const N: usize>(y: &[f64; N], end: &[f64; N], scale: &[f64; N]) -> f64 {
+    let change = distance(y, end, scale);
+    let size = (0..N).fold(0.0_f64, |size, i| size.max(end[i].abs().max(y[i].abs()) / scale[i]));
+    if change == 0.0 { 0.0 } else { change / size.min(1.0) }
 }

@@ -5,6 +5,7 @@
 
 use super::linear::Lu;
 use crate::measure::multipliers::{Matrix, is_stable};
+use crate::measure::strobe::{distance, residual};
 
 /// Largest number of chord steps of an iteration. One to three are usual.
 const MAX_CHORD_STEPS: u32 = 6;
@@ -109,22 +110,6 @@ impl<const N: usize> Chord<N> {
             }
         }
     }
-}
-
-/// Returns the distance of two states: the largest component of their difference, in units of the states' typical
-/// sizes.
-pub(super) fn distance<const N: usize>(one: &[f64; N], other: &[f64; N], scale: &[f64; N]) -> f64 {
-    (0..N).fold(0.0, |largest, i| largest.max((one[i] - other[i]).abs() / scale[i]))
-}
-
-/// Returns the change of the state over a period from `y` to `end`: the largest component, in units of the states'
-/// typical sizes.
-///
-/// In a motion smaller than these sizes, the change is relative to the motion's own size.
-pub(super) fn residual<const N: usize>(y: &[f64; N], end: &[f64; N], scale: &[f64; N]) -> f64 {
-    let change = distance(y, end, scale);
-    let size = (0..N).fold(0.0_f64, |size, i| size.max(end[i].abs().max(y[i].abs()) / scale[i]));
-    if change == 0.0 { 0.0 } else { change / size.min(1.0) }
 }
 
 /// Returns the fixed point of the linear map that leads from the beginning of `near` to `end` and has its monodromy

@@ -24,12 +24,13 @@ use std::rc::Rc;
 
 use super::march::March;
 use super::orbit_row::{self, MeasuredOrbit};
-use super::period_map::{self, Chord, Marched, Orbit, PROGRESS, distance, fixed_point};
+use super::period_map::{Chord, Marched, Orbit, PROGRESS, fixed_point};
 use super::periods::{Exchange, Kind, PeriodEnd, Request};
 use super::row::{Row, Status};
 use super::settings::SolverSettings;
 use crate::measure::cycle::{SumsOf, over_both_halves};
 use crate::measure::multipliers::{Matrix, identity, product, spectral_radius};
+use crate::measure::strobe::{self, distance};
 use crate::model::{Model, Symmetry};
 use crate::ode::ensemble::Restart;
 use crate::ode::{Ending, Outcome, Start, input, slope};
@@ -422,7 +423,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             monodromy.get_or_insert(end.monodromy);
             // The first period continues the march.
             let march = *march.get_or_insert(Marched { begin: y, end: end.y, error, maps: 1 });
-            let residual = period_map::residual(&y, &end.y, &scale);
+            let residual = strobe::residual(&y, &end.y, &scale);
             let orbit = Orbit { y, monodromy: end.monodromy };
             let next = fixed_point(&orbit, &end.y, &scale);
             if residual <= goal {
@@ -553,7 +554,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             }
             let orbit = chord.orbit;
             let end = self.measure(Kind::Signals, &orbit.y, 1.0).await.ok_or(NoOrbit::Failed)?;
-            let confirmed = period_map::residual(&orbit.y, &end.y, &scale);
+            let confirmed = strobe::residual(&orbit.y, &end.y, &scale);
             if is_final || !presumes || confirmed <= self.goal {
                 let residual = confirmed.min(residual);
                 return Ok(Measured { orbit, monodromy: matrix, residual, end });
