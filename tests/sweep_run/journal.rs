@@ -64,8 +64,8 @@ impl Sink for Crash<'_> {
         self.session.write(cells)
     }
 
-    fn done(&mut self, so_far: &Summary) -> std::io::Result<()> {
-        self.session.done(so_far)?;
+    fn after_point(&mut self, so_far: &Summary) -> std::io::Result<()> {
+        self.session.after_point(so_far)?;
         if so_far.done() == self.stop_at { Err(std::io::Error::other("no power")) } else { Ok(()) }
     }
 

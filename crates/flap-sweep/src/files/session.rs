@@ -292,7 +292,7 @@ impl Sink for Session {
         self.rows.cells(cells)
     }
 
-    fn done(&mut self, so_far: &Summary) -> io::Result<()> {
+    fn after_point(&mut self, so_far: &Summary) -> io::Result<()> {
         if self.rows.may_be_cut() && self.last_checkpoint.elapsed() >= self.checkpoint_interval {
             self.write_checkpoint(so_far)?;
         }

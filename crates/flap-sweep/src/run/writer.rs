@@ -14,8 +14,8 @@ use crate::table::layout::{Cell, Layout};
 
 /// A table that receives rows in order.
 ///
-/// The order of calls is `begin`, then any number of `write`, `done` and `flush`, then `finish`. After an error, the
-/// caller calls no more functions of the sink.
+/// The order of calls is `begin`, then any number of `write`, `after_point` and `flush`, then `finish`. After an error,
+/// the caller calls no more functions of the sink.
 pub trait Sink {
     /// Writes the header, if the sink has a header.
     ///
@@ -45,7 +45,7 @@ pub trait Sink {
     ///
     /// # Errors
     /// The error of storing the rows.
-    fn done(&mut self, so_far: &Summary) -> io::Result<()> {
+    fn after_point(&mut self, so_far: &Summary) -> io::Result<()> {
         let _ = so_far;
         Ok(())
     }
@@ -175,19 +175,19 @@ impl<'a> RowWriter<'a> {
             self.summary.add(index, row, &self.limits);
             if rows.peek().is_some() {
                 self.summary.begun += 1;
-                self.sink.done(&self.summary)?;
+                self.sink.after_point(&self.summary)?;
             }
         }
         self.summary.begun = 0;
         self.summary.ran += 1;
-        Ok(self.sink.done(&self.summary)?)
+        Ok(self.sink.after_point(&self.summary)?)
     }
 
     /// Counts the next unit of work as excluded by the conditions with the given indices. An excluded unit of work has
     /// no row.
     pub(crate) fn exclude(&mut self, unsatisfied: &[usize]) -> Result<(), RunError> {
         self.summary.exclude(unsatisfied);
-        Ok(self.sink.done(&self.summary)?)
+        Ok(self.sink.after_point(&self.summary)?)
     }
 
     /// Passes the rows so far to the operating system.
