@@ -34,7 +34,7 @@ impl Format {
                 Err(FormatError(format!("{}: this flap was built without Parquet", path.display())))
             }
             Some(format) => Ok(format),
-            None if is_stream(path) => Ok(Format::Csv),
+            None if is_no_regular_file(path) => Ok(Format::Csv),
             None => Err(unknown(path, Format::ENDINGS)),
         }
     }
@@ -50,7 +50,7 @@ impl Format {
     /// # Errors
     /// An error if the ending of the file's name is not `.csv`.
     pub fn require_csv(path: &Path) -> Result<(), FormatError> {
-        let is_csv = Format::named(path) == Some(Format::Csv) || is_stream(path);
+        let is_csv = Format::named(path) == Some(Format::Csv) || is_no_regular_file(path);
         if is_csv { Ok(()) } else { Err(unknown(path, ".csv")) }
     }
 
@@ -84,7 +84,7 @@ fn unknown(path: &Path, allowed: &str) -> FormatError {
 }
 
 /// Returns true if `path` is something other than a file, such as a device or a pipe.
-fn is_stream(path: &Path) -> bool {
+fn is_no_regular_file(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| !metadata.is_file())
 }
 

@@ -108,6 +108,7 @@ pub struct Done {
 /// - [`JobError::Write`] if a file beside the results cannot be written.
 pub fn begin<'a>(job: &'a Job<'a>) -> Result<Begun<'a>, JobError> {
     Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
+    // `resume` rejects a disk, because its contents must not be overwritten. `start` writes to a disk.
     match job.begin {
         Begin::Continue if !disk::is_stream(&job.out) => job.resume(),
         _ => job.start(),
