@@ -165,13 +165,14 @@ pub(super) fn gradient<M: Model<N>, R: Scalar, const N: usize>(
     tolerances.atol *= share_of_tolerance(&start.y, &start.scale);
     let (recording, outcome) = record::<M, R, N>(model, &tolerances, &start, interrupted);
     let sides = changes.iter().map(|change| sides(model, change)).collect();
-    let orbit = Orbit { model, solver, values, start: &start, recording: &recording, changes, sides };
+    let kernel =
+        GradientKernel { model, solver, values, start: &start, recording: &recording, changes, sides };
     let mut gradient = if outcome.ending != Ending::Stopped {
-        orbit.without(NoSlope::Lost)
+        kernel.without(NoSlope::Lost)
     } else if outcome.switches > MANY_SWITCHES {
-        orbit.without(NoSlope::Sliding)
+        kernel.without(NoSlope::Sliding)
     } else {
-        backend.dispatch(orbit)
+        backend.dispatch(kernel)
     };
     gradient.rhs_evals += outcome.rhs_evals;
     if interrupted() { Err(Unfinished::Interrupted) } else { Ok(gradient) }
@@ -213,8 +214,8 @@ fn in_range(parameters: &[Parameter], values: &[f64]) -> bool {
     })
 }
 
-/// A period of an orbit, to be repeated with changes.
-struct Orbit<'a, M: Model<N>, const N: usize> {
+/// The computation of derivatives from a period of an orbit, which is repeated with changes.
+struct GradientKernel<'a, M: Model<N>, const N: usize> {
     model: &'a M,
     solver: &'a SolverSettings,
     values: &'a [f64],
@@ -224,12 +225,12 @@ struct Orbit<'a, M: Model<N>, const N: usize> {
     sides: Vec<Sides<M::Constants<f64>>>,
 }
 
-impl<M: Model<N>, const N: usize> Kernel for Orbit<'_, M, N> {
+impl<M: Model<N>, const N: usize> Kernel for GradientKernel<'_, M, N> {
     type Output = Gradient;
 
     #[inline(always)]
     fn run<I: Simd>(self, simd: I) -> Gradient {
-        let Orbit { model, recording, .. } = self;
+        let GradientKernel { model, recording, .. } = self;
         let starts = self.for_responses();
         let ends = replay(simd, model, &Unobserved, recording, &starts);
         let mut periods = starts.len();
@@ -252,7 +253,7 @@ impl<M: Model<N>, const N: usize> Kernel for Orbit<'_, M, N> {
     }
 }
 
-impl<M: Model<N>, const N: usize> Orbit<'_, M, N> {
+impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
     /// Returns the starts of the period, of periods from changed states, and of periods with changed quantities.
     fn for_responses(&self) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = self.around(self.start.y);

@@ -17,10 +17,11 @@ pub(super) const PROGRESS: f64 = 0.5;
 /// march and orbit.
 const LINEAR: f64 = 0.3;
 
-/// A periodic orbit of one drive period.
+/// A state near a periodic orbit, with the derivative of the map there. If the residual is small, the state is on the
+/// orbit.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Orbit<const N: usize> {
-    /// State at its beginning.
+    /// State at the beginning of a period.
     pub(super) y: [f64; N],
     /// Responses of the map's result to changes of `y`, in units of the states' typical sizes.
     pub(super) monodromy: Matrix<N>,
