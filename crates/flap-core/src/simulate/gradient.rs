@@ -18,12 +18,12 @@
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
-use super::begin::begin;
 use super::march::share_of_tolerance;
 use super::orbit_row::{MANY_SWITCHES, measures};
 use super::request::Unfinished;
 use super::settings::SolverSettings;
 use super::single::PointRun;
+use super::start::start_at;
 use crate::measure::cycle::{SignalObserver, Sums, finish};
 use crate::measure::quarters::{InQuarters, Quarters, with_equal_extrema};
 use crate::model::{Model, SignalSet};
@@ -159,7 +159,7 @@ pub(super) fn gradient<M: Model<N>, R: Scalar, const N: usize>(
     let changed = changes.iter().flat_map(|change| [&change.ahead, &change.behind]);
     let model =
         &changed.fold(model.variant(values), |model, values| model.with_terms_of(&model.variant(values)));
-    let mut start = begin(model, values, Some(state))?;
+    let mut start = start_at(model, values, Some(state))?;
     start.tolerance_factor = tolerance_factor(solver.rtol);
     let mut tolerances = solver.tolerances();
     tolerances.atol *= share_of_tolerance(&start.y, &start.scale);

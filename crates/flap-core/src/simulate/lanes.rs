@@ -14,12 +14,12 @@ use core::task::{Context, Poll, Waker};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use super::begin::begin;
 use super::jobs::{Jobs, LaneUse, Point};
 use super::periods::{Exchange, Kind, PeriodEnd};
 use super::row::Row;
 use super::search::{Settled, settle};
 use super::settings::SolverSettings;
+use super::start::start_at;
 use crate::measure::cycle::{SignalObserver, SumsOf};
 use crate::measure::multipliers::monodromy;
 use crate::measure::size::Size;
@@ -161,11 +161,11 @@ impl<M> Points<'_, '_, M> {
 impl<'a, M: Model<N>, const N: usize> Source<'a, Settled<N>, M, N> for Points<'a, '_, M> {
     fn next(&mut self, wait: bool) -> Option<Run<'a, Settled<N>, M, N>> {
         loop {
-            let Point { index, values, begin: state } = self.next_point(wait)?;
-            match begin(self.model, &values, state.as_deref()) {
+            let Point { index, values, begin } = self.next_point(wait)?;
+            match start_at(self.model, &values, begin.as_deref()) {
                 Ok(start) => {
                     let (model, solver) = (self.model, self.solver);
-                    let nearby = state.is_some();
+                    let nearby = begin.is_some();
                     let search = |exchange| settle(model, solver, start, nearby, exchange);
                     return Some(Box::new(Running::new(index, start, search)));
                 }

@@ -4,7 +4,6 @@
 //! [`Motions`] and [`Experiments`]. [`Runner`] implements these traits for a [`Model`](crate::model::Model). [`all`]
 //! lists the models of this crate.
 
-mod begin;
 mod gradient;
 mod jobs;
 mod lanes;
@@ -22,6 +21,7 @@ mod search;
 mod settings;
 mod simulator;
 mod single;
+mod start;
 
 pub use gradient::{Change, Gradient, NoSlope};
 pub use jobs::{Jobs, LaneUse, Point};

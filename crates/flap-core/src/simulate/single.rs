@@ -1,7 +1,6 @@
 //! One point on scalars: its row, its motion over time, and single periods. This simple code is the reference for the
 //! lanes.
 
-use super::begin::begin;
 use super::lanes::run_alone;
 use super::orbit_row::measures;
 use super::periods::{Kind, Request};
@@ -10,6 +9,7 @@ use super::row::{Row, Status};
 use super::sampler::sampled;
 use super::search::{Settled, settle};
 use super::settings::SolverSettings;
+use super::start::start_at;
 use crate::measure::multipliers::spectral_radius;
 use crate::model::Model;
 use crate::num::{Backend, Scalar};
@@ -66,7 +66,7 @@ pub(super) fn row<M: Model<N>, R: Scalar, const N: usize>(
 ) -> Row {
     let PointRun { solver, values, interrupted, .. } = *run;
     let model = &model.variant(values);
-    let start = match begin(model, values, from) {
+    let start = match start_at(model, values, from) {
         Ok(start) => start,
         Err(error) => return Row::invalid(error),
     };
@@ -86,7 +86,7 @@ pub(super) fn trajectory<M: Model<N>, R: Scalar, const N: usize>(
     let PointRun { solver, values, interrupted, .. } = *run;
     let TrajectoryRequest { cycles, samples_per_cycle, settled } = *request;
     let model = &model.variant(values);
-    let mut start = begin(model, values, from)?;
+    let mut start = start_at(model, values, from)?;
     if settled {
         let settled = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| {
             settle(model, solver, start, from.is_some(), exchange)
@@ -108,7 +108,7 @@ pub(super) fn period<M: Model<N>, R: Scalar, const N: usize>(
 ) -> Result<Period, Unfinished> {
     let PointRun { solver, values, interrupted, .. } = *run;
     let model = &model.variant(values);
-    let start = begin(model, values, Some(from))?;
+    let start = start_at(model, values, Some(from))?;
     let Start { y, span, scale, tolerance_factor, .. } = start;
     let begin = Some(Start { constants: (), y, span, scale, tolerance_factor, change: scale });
     let ends = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| async move {
