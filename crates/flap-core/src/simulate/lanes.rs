@@ -17,7 +17,7 @@ use std::rc::Rc;
 use super::jobs::{Jobs, LaneUse, Point};
 use super::periods::{Exchange, Kind, PeriodEnd};
 use super::row::Row;
-use super::search::{Settled, settle};
+use super::search::{SearchResult, settle};
 use super::settings::SolverSettings;
 use super::start::start_at;
 use crate::measure::cycle::{SignalObserver, SumsOf};
@@ -158,8 +158,8 @@ impl<M> Points<'_, '_, M> {
     }
 }
 
-impl<'a, M: Model<N>, const N: usize> Source<'a, Settled<N>, M, N> for Points<'a, '_, M> {
-    fn next(&mut self, wait: bool) -> Option<Run<'a, Settled<N>, M, N>> {
+impl<'a, M: Model<N>, const N: usize> Source<'a, SearchResult<N>, M, N> for Points<'a, '_, M> {
+    fn next(&mut self, wait: bool) -> Option<Run<'a, SearchResult<N>, M, N>> {
         loop {
             let Point { index, values, begin } = self.next_point(wait)?;
             match start_at(self.model, &values, begin.as_deref()) {
@@ -174,7 +174,7 @@ impl<'a, M: Model<N>, const N: usize> Source<'a, Settled<N>, M, N> for Points<'a
         }
     }
 
-    fn done(&mut self, index: u64, settled: Settled<N>) {
+    fn done(&mut self, index: u64, settled: SearchResult<N>) {
         self.jobs.done(index, settled.row);
     }
 

@@ -6,8 +6,8 @@
 //!    nearby periodic orbit. A loose tolerance suffices for this.
 //! 2. **Middle.** The orbit of a middle tolerance is found and measured. It is much closer to the row's orbit than the
 //!    first one. The difference of its measures from the row gives the row's error estimate.
-//! 3. **Close.** Chord steps at the tolerance of the row lead close to its orbit. A period with responses to changes of
-//!    the state gives the monodromy matrix, and Newton's step with it gives the orbit. The period of this orbit is
+//! 3. **Approach.** Chord steps at the tolerance of the row lead close to its orbit. A period with responses to changes
+//!    of the state gives the monodromy matrix, and Newton's step with it gives the orbit. The period of this orbit is
 //!    measured, which confirms the orbit.
 //! 4. **Judge.** A row that is not accurate enough is computed again with tighter tolerances, from its orbit.
 //!
@@ -107,8 +107,8 @@ const ASYMMETRY: f64 = 1e-9;
 /// Largest distance between the orbits of two tolerances, in units of the states' typical sizes.
 const ORBITS_DIFFER: f64 = 0.1;
 
-/// Result of a search: the row of a point that has settled, or of a failed search.
-pub(super) struct Settled<const N: usize> {
+/// Result of a search: the row of a point, whose motion may have settled or not.
+pub(super) struct SearchResult<const N: usize> {
     pub(super) row: Row,
     /// Start of the row's orbit, with its tolerances.
     pub(super) orbit: Option<Restart<N>>,
@@ -199,7 +199,7 @@ pub(super) fn settle<'a, M: Model<N>, const N: usize>(
     start: Start<M::Constants<f64>, N>,
     nearby: bool,
     exchange: Rc<Exchange<SumsOf<M, N>, N>>,
-) -> impl Future<Output = Settled<N>> + 'a {
+) -> impl Future<Output = SearchResult<N>> + 'a {
     let mut search = Box::new(Search {
         model,
         solver,
@@ -221,29 +221,29 @@ pub(super) fn settle<'a, M: Model<N>, const N: usize>(
 
 impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// Returns the point's row and orbit; for `nearby` see [`settle`].
-    async fn settle(&mut self, nearby: bool) -> Settled<N> {
+    async fn settle(&mut self, nearby: bool) -> SearchResult<N> {
         let SolverSettings { newton, progressive, max_cycles, .. } = *self.solver;
         let is_worth_it = self.rtol() <= LOOSE_FOR && max_cycles > LOOSE_CYCLES;
         if newton && progressive && !nearby && is_worth_it {
             self.begin(false, LOOSE_CYCLES);
-            if let Some(settled) = self.follow(Tolerance::Loose).await {
+            if let Some(settled) = self.find(Tolerance::Loose).await {
                 return settled;
             }
         }
         self.begin(nearby, max_cycles);
-        match self.follow(Tolerance::Row).await {
+        match self.find(Tolerance::Row).await {
             Some(settled) => settled,
-            None => Settled { row: self.unsettled(), orbit: None },
+            None => SearchResult { row: self.unsettled(), orbit: None },
         }
     }
 
     /// Returns the row of a nearby orbit; `None` if there is no orbit of the row's tolerance close to it.
-    async fn settle_near(&mut self, mut near: Near<N>) -> Option<Settled<N>> {
-        let mut last: Option<Settled<N>> = None;
+    async fn settle_near(&mut self, mut near: Near<N>) -> Option<SearchResult<N>> {
+        let mut last: Option<SearchResult<N>> = None;
         for refinement in 0..=REFINEMENTS {
             let (measured, middle) = loop {
                 let middle = self.measure_middle(&mut near).await;
-                match self.close(&near).await {
+                match self.approach(&near).await {
                     Ok(measured) => break (measured, middle),
                     Err(NoOrbit::Jumps(orbit)) => {
                         self.tighten(FINER);
@@ -263,13 +263,13 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             if !is_periodic && last.is_some() {
                 break;
             }
-            let settled = Settled { row, orbit: Some(self.from(&orbit.y, 1.0)) };
+            let settled = SearchResult { row, orbit: Some(self.restart_at(&orbit.y, 1.0)) };
             if !is_periodic || error <= self.solver.accuracy || self.is_finest() {
                 return Some(self.with_costs(settled));
             }
             last = Some(settled);
             if refinement < REFINEMENTS {
-                self.refine(error);
+                self.tighten_for(error);
                 let march = Marched { begin: orbit.y, end: orbit.y, error: ORBITS_DIFFER, maps: 1 };
                 near = Near::without_matrix(orbit, march, f64::INFINITY);
             }
@@ -277,11 +277,11 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         last.map(|last| self.with_costs(last))
     }
 
-    /// Marches until a nearby orbit is the orbit of the point.
+    /// Finds the orbit of the point: marches until a nearby orbit is this orbit.
     ///
     /// `None` if the march fails, is exhausted, or settles on a subharmonic orbit. At the loose tolerance also if a
     /// nearby orbit does not lead to an orbit of the row's tolerance.
-    async fn follow(&mut self, at: Tolerance) -> Option<Settled<N>> {
+    async fn find(&mut self, at: Tolerance) -> Option<SearchResult<N>> {
         loop {
             self.march(at).await?;
             let settled = match self.march.period() {
@@ -298,7 +298,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             self.check_symmetry();
             // While the orbit is assumed to be symmetric, half periods are tried first.
             let is_lost = loop {
-                let found = self.find(at, settled).await;
+                let found = self.orbit_near_march(at, settled).await;
                 if let Some(near) = found {
                     if let Some(row) = self.settle_near(near).await {
                         return Some(row);
@@ -306,7 +306,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
                     // The march has settled although no orbit was found. Its orbit is measured as it is.
                     if settled && at == Tolerance::Row && self.symmetry.is_none() && !near.is_final {
                         self.reset_tolerances();
-                        return self.settle_near(self.marched(near.orbit.monodromy)).await;
+                        return self.settle_near(self.orbit_of_settled_march(near.orbit.monodromy)).await;
                     }
                 }
                 self.reset_tolerances();
@@ -323,7 +323,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Returns the orbit near the state of the march, which may have `settled`; `None` if Newton's iteration finds
     /// none.
-    async fn find(&mut self, at: Tolerance, settled: bool) -> Option<Near<N>> {
+    async fn orbit_near_march(&mut self, at: Tolerance, settled: bool) -> Option<Near<N>> {
         let change = self.march.change(1);
         if at == Tolerance::Loose && change <= ARRIVED.max(self.goal) {
             // The chord iteration continues the march.
@@ -334,7 +334,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         match self.iterate(at).await {
             Ok(near) => Some(near),
             Err(Some(monodromy)) if settled && at == Tolerance::Row && self.symmetry.is_none() => {
-                Some(self.marched(monodromy))
+                Some(self.orbit_of_settled_march(monodromy))
             }
             Err(_) => None,
         }
@@ -364,7 +364,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Returns the orbit on which the march has settled. Its state varies by more than the residual goal of Newton's
     /// iteration.
-    fn marched(&self, monodromy: Matrix<N>) -> Near<N> {
+    fn orbit_of_settled_march(&self, monodromy: Matrix<N>) -> Near<N> {
         let march = self.last_marched(self.goal);
         let orbit = Orbit { y: march.end, monodromy };
         let residual = self.march.change(1);
@@ -382,7 +382,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// `None` if a period cannot be integrated.
     async fn march(&mut self, at: Tolerance) -> Option<()> {
         let factor = self.factor(at);
-        let mut begin = Some(self.from(&self.march.state().clone(), factor));
+        let mut begin = Some(self.restart_at(&self.march.state().clone(), factor));
         while !self.march.is_exhausted() {
             let end = self.period(Kind::States, begin.take()).await?;
             self.march.period_end(&end.y, &end.largest);
@@ -396,7 +396,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             }
             if self.march.is_oversized(&self.size) && !arrives {
                 self.size = self.march.motion_size();
-                begin = Some(self.from(&end.y, factor));
+                begin = Some(self.restart_at(&end.y, factor));
             }
         }
         self.size = self.march.motion_size();
@@ -415,7 +415,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let mut last = f64::INFINITY;
         let mut monodromy = None;
         for _ in 0..=MAX_ITERATIONS {
-            let Some(end) = self.map(Kind::Responses, &y, self.factor(at)).await else {
+            let Some(end) = self.apply_map(Kind::Responses, &y, self.factor(at)).await else {
                 self.ending = Ending::Stopped;
                 return Err(monodromy);
             };
@@ -497,7 +497,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     async fn converge(&mut self, chord: &mut Chord<N>, factor: f64, enough: f64) -> bool {
         loop {
             let y = chord.orbit.y;
-            let Some(end) = self.map(Kind::States, &y, factor).await else { return false };
+            let Some(end) = self.apply_map(Kind::States, &y, factor).await else { return false };
             if !chord.step(&end.y) || chord.residual <= enough {
                 return chord.residual <= enough;
             }
@@ -505,7 +505,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     }
 
     /// Moves from a nearby orbit to the orbit of the row's tolerance, in chord steps, and measures its period.
-    async fn close(&mut self, near: &Near<N>) -> Result<Measured<SumsOf<M, N>, N>, NoOrbit<N>> {
+    async fn approach(&mut self, near: &Near<N>) -> Result<Measured<SumsOf<M, N>, N>, NoOrbit<N>> {
         let scale = self.start.scale;
         let Near { monodromy: mut matrix, mut residual, mut step, mut is_final, .. } = *near;
         let mut chord = Chord::new(near.orbit, &scale);
@@ -521,7 +521,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             while !is_final && (matrix.is_none() || residual > self.goal && !(presumes && step <= last_step))
             {
                 let y = chord.orbit.y;
-                let end = self.map(Kind::States, &y, 1.0).await.ok_or(NoOrbit::Failed)?;
+                let end = self.apply_map(Kind::States, &y, 1.0).await.ok_or(NoOrbit::Failed)?;
                 let mut moved = chord.step(&end.y);
                 residual = chord.residual;
                 // The matrix is also computed if the steps make no progress.
@@ -571,7 +571,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     async fn monodromy(&mut self, y: &[f64; N]) -> Option<Matrix<N>> {
         // Multipliers of a period are powers of the map's multipliers, with correspondingly larger relative errors.
         let rtol = RESPONSES / f64::from(self.maps_per_period()) * self.rtol().sqrt();
-        Some(self.map(Kind::Responses, y, (rtol / self.rtol()).max(1.0)).await?.monodromy)
+        Some(self.apply_map(Kind::Responses, y, (rtol / self.rtol()).max(1.0)).await?.monodromy)
     }
 
     /// Returns the largest modulus of the multipliers of a subharmonic orbit of `periods` drive periods, at the state
@@ -580,7 +580,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         let mut monodromy = identity();
         let mut y = *self.march.state();
         for _ in 0..periods {
-            let Some(end) = self.period(Kind::Responses, Some(self.from(&y, 1.0))).await else {
+            let Some(end) = self.period(Kind::Responses, Some(self.restart_at(&y, 1.0))).await else {
                 self.ending = Ending::Stopped;
                 return f64::NAN;
             };
@@ -593,8 +593,13 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// Applies the map whose fixed point is the orbit, at `factor` times the tolerances of the row.
     ///
     /// The map covers a period, or half a period with a mirrored end.
-    async fn map(&mut self, kind: Kind, y: &[f64; N], factor: f64) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
-        let begin = self.from(y, factor);
+    async fn apply_map(
+        &mut self,
+        kind: Kind,
+        y: &[f64; N],
+        factor: f64,
+    ) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
+        let begin = self.restart_at(y, factor);
         let Some(Symmetry { centre, .. }) = self.symmetry else {
             return self.period(kind, Some(begin)).await;
         };
@@ -608,9 +613,9 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// first.
     async fn measure(&mut self, kind: Kind, y: &[f64; N], factor: f64) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
         let Some(Symmetry { second_half: Some(second_half), .. }) = self.symmetry else {
-            return self.period(kind, Some(self.from(y, factor))).await;
+            return self.period(kind, Some(self.restart_at(y, factor))).await;
         };
-        let mut end = self.map(kind, y, factor).await?;
+        let mut end = self.apply_map(kind, y, factor).await?;
         if let Some(sums) = end.sums.as_deref_mut() {
             *sums = over_both_halves::<M::Signals>(sums, second_half);
         }
@@ -657,7 +662,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     }
 
     /// Returns the start of a period at `y`, with `factor` times the tolerances of the row.
-    fn from(&self, y: &[f64; N], factor: f64) -> Restart<N> {
+    fn restart_at(&self, y: &[f64; N], factor: f64) -> Restart<N> {
         let tolerance_factor = self.tolerance_factor * factor;
         let Start { span, scale, .. } = self.start;
         Start { constants: (), y: *y, span, scale: self.size, tolerance_factor, change: scale }
@@ -695,7 +700,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     }
 
     /// Tightens the tolerances of a row with this `error`.
-    fn refine(&mut self, error: f64) {
+    fn tighten_for(&mut self, error: f64) {
         let SolverSettings { accuracy, settle_tol, .. } = *self.solver;
         // The error is about proportional to the tolerances.
         self.tighten(if error.is_finite() { (0.25 * accuracy / error).clamp(1e-3, 0.125) } else { FINER });
@@ -747,7 +752,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     }
 
     /// Returns the same result with the total costs of its point.
-    fn with_costs(&self, mut settled: Settled<N>) -> Settled<N> {
+    fn with_costs(&self, mut settled: SearchResult<N>) -> SearchResult<N> {
         settled.row.cycles = self.cycles();
         settled.row.rhs_evals = self.rhs_evals;
         settled

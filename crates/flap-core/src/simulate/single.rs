@@ -7,7 +7,7 @@ use super::periods::{Kind, Request};
 use super::request::{Period, Trajectory, TrajectoryRequest, Unfinished};
 use super::row::{Row, Status};
 use super::sampler::sampled;
-use super::search::{Settled, settle};
+use super::search::{SearchResult, settle};
 use super::settings::SolverSettings;
 use super::start::start_at;
 use crate::measure::multipliers::spectral_radius;
@@ -91,7 +91,7 @@ pub(super) fn trajectory<M: Model<N>, R: Scalar, const N: usize>(
         let settled = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| {
             settle(model, solver, start, from.is_some(), exchange)
         });
-        let Settled { row, orbit } = settled.ok_or(Unfinished::Interrupted)?;
+        let SearchResult { row, orbit } = settled.ok_or(Unfinished::Interrupted)?;
         let Some(orbit) = orbit.filter(|_| row.status == Status::Periodic) else {
             return Err(Unfinished::NotPeriodic { status: row.status, cycles: row.cycles });
         };
