@@ -6,7 +6,7 @@ use flap_core::body::BodyParameters;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{SolverSettings, never};
 use flap_sweep::plan::Plan;
-use flap_sweep::vehicle::control::{Flight, Input};
+use flap_sweep::vehicle::control::{Input, VehicleRun};
 use flap_sweep::vehicle::flight::{FED_BACK, FlightError, FlightRecord, FlightRequest, fly};
 use nalgebra::{DMatrix, Rotation3, Vector3};
 
@@ -46,8 +46,9 @@ const REST: FlightRequest = FlightRequest {
 };
 
 fn try_to_fly(plan: &Plan, request: &FlightRequest) -> Result<FlightRecord, FlightError> {
-    let flight = Flight { vehicle: plan.vehicle().unwrap(), solver: plan.solver(), interrupted: &never };
-    fly(&flight, &plan.point(0).values, request)
+    let vehicle_run =
+        VehicleRun { vehicle: plan.vehicle().unwrap(), solver: plan.solver(), interrupted: &never };
+    fly(&vehicle_run, &plan.point(0).values, request)
 }
 
 fn flown(plan: &Plan, request: &FlightRequest) -> FlightRecord {
@@ -227,7 +228,8 @@ fn wings_on_a_heavy_body_have_the_wrench_of_rows() {
              plane = {{ pitch = 0.1 }}\n[[vehicle.wings]]\nname = \"right\"\nposition = [0, 0.002, 0]\nmirrored = true\n"
         ));
         let solver = SolverSettings { rtol: 1e-9, atol: 1e-11, ..*heavy.solver() };
-        let flight = Flight { vehicle: heavy.vehicle().unwrap(), solver: &solver, interrupted: &never };
+        let vehicle_run =
+            VehicleRun { vehicle: heavy.vehicle().unwrap(), solver: &solver, interrupted: &never };
         let parameters = heavy.parameters();
         for motion in [[0.2, -0.3, 0.1, 0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 3.0, -5.0, 8.0]] {
             let mut values = heavy.point(0).values;
@@ -236,9 +238,9 @@ fn wings_on_a_heavy_body_have_the_wrench_of_rows() {
                 values[Parameter::index(parameters, name).unwrap()] = motion[i];
                 disturbance[i] = motion[i];
             }
-            let expected = flight.wrench(&flight.row(&values, None));
+            let expected = vehicle_run.wrench(&vehicle_run.row(&values, None));
             let request = FlightRequest { seconds: 0.6, disturbance, ..REST.clone() };
-            let record = fly(&flight, &heavy.point(0).values, &request).unwrap();
+            let record = fly(&vehicle_run, &heavy.point(0).values, &request).unwrap();
             let found = &record.rows.last().unwrap()[13..];
             for part in [0..3, 3..6] {
                 let size = part.clone().map(|i| expected[i].abs()).fold(0.0, f64::max);

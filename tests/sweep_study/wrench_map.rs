@@ -9,7 +9,7 @@ use flap_core::simulate::{Status, never};
 use flap_sweep::plan::Plan;
 use flap_sweep::run::RunOptions;
 use flap_sweep::study::wrench_map::{MapInput, WrenchMap, WrenchMapError};
-use flap_sweep::vehicle::control::{Flight, Input};
+use flap_sweep::vehicle::control::{Input, VehicleRun};
 
 use crate::support::{bits, plan};
 
@@ -59,7 +59,8 @@ static MAP: LazyLock<WrenchMap> = LazyLock::new(|| map(&plan(VEHICLE), 1.0, 2));
 #[test]
 fn a_map_agrees_with_other_rows() {
     let plan = plan(VEHICLE);
-    let flight = Flight { vehicle: plan.vehicle().unwrap(), solver: plan.solver(), interrupted: &never };
+    let vehicle_run =
+        VehicleRun { vehicle: plan.vehicle().unwrap(), solver: plan.solver(), interrupted: &never };
     let map = &*MAP;
     assert_eq!((map.fitted, map.left_out, map.unused.len()), (320, 80, 0));
     assert!(map.r_squared.iter().all(|r_squared| *r_squared > 0.998), "{:?}", map.r_squared);
@@ -76,9 +77,9 @@ fn a_map_agrees_with_other_rows() {
         for (input, value) in map.inputs.iter().zip(&at) {
             values[input.parameter] = *value;
         }
-        let row = flight.row(&values, None);
+        let row = vehicle_run.row(&values, None);
         assert_eq!(row.status, Status::Periodic);
-        for (place, (found, exact)) in map.evaluate(&at).iter().zip(flight.wrench(&row)).enumerate() {
+        for (place, (found, exact)) in map.evaluate(&at).iter().zip(vehicle_run.wrench(&row)).enumerate() {
             largest[place] = largest[place].max((found - exact).abs());
         }
     }
@@ -92,10 +93,10 @@ fn a_map_agrees_with_other_rows() {
 fn linear_coefficients_are_derivatives() {
     let plan = plan(VEHICLE);
     let vehicle = plan.vehicle().unwrap();
-    let flight = Flight { vehicle, solver: plan.solver(), interrupted: &never };
+    let vehicle_run = VehicleRun { vehicle, solver: plan.solver(), interrupted: &never };
     let names = ["amplitude", "bias", "amplitude_difference", "second_harmonic"];
     let chosen: Vec<Input> = names.iter().map(|name| Input::of(vehicle, name).unwrap()).collect();
-    let exact = flight.effectiveness(&plan.point(0).values, &chosen, None).unwrap();
+    let exact = vehicle_run.effectiveness(&plan.point(0).values, &chosen, None).unwrap();
     let errors = |map: &WrenchMap| {
         let physical = map.physical();
         let slopes = |component: usize, input: usize| {

@@ -1,7 +1,7 @@
 //! Flight of a vehicle over time.
 
 use flap_core::simulate::Trajectory;
-use flap_sweep::vehicle::control::Flight;
+use flap_sweep::vehicle::control::VehicleRun;
 use flap_sweep::vehicle::flight::{self, FED_BACK, FlightError, FlightRequest};
 use flap_sweep::vehicle::hover::STATES;
 use nalgebra::DMatrix;
@@ -55,8 +55,8 @@ pub(crate) fn fly<'py>(
         samples: samples.map(|samples| convert::count("samples", samples)).transpose()?,
     };
     let record = interruptible(py, |interrupted| {
-        let flight = Flight { vehicle, solver: chosen.plan.solver(), interrupted };
-        flight::fly(&flight, &chosen.values, &request)
+        let vehicle_run = VehicleRun { vehicle, solver: chosen.plan.solver(), interrupted };
+        flight::fly(&vehicle_run, &chosen.values, &request)
     })?;
     let record = record.map_err(|error: FlightError| PyValueError::new_err(error.to_string()))?;
     let columns = vehicle_columns(&chosen);

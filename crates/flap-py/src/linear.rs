@@ -2,7 +2,7 @@
 
 use flap_core::vehicle::Vehicle;
 use flap_sweep::files::linear_model::LinearModel;
-use flap_sweep::vehicle::control::{Flight, Input, trim};
+use flap_sweep::vehicle::control::{Input, VehicleRun, trim};
 use flap_sweep::vehicle::hover::{self, component};
 use nalgebra::DMatrix;
 use numpy::{PyArray1, PyArray2};
@@ -41,17 +41,19 @@ pub(crate) fn linear<'py>(
     };
     let design = format!("{} from {}", chosen.plan.simulator().name(), chosen.plan.preset());
     let model = interruptible(py, |interrupted| {
-        let flight = Flight { vehicle, solver: chosen.plan.solver(), interrupted };
+        let vehicle_run = VehicleRun { vehicle, solver: chosen.plan.solver(), interrupted };
         let mut at =
-            flight.effectiveness(&chosen.values, &inputs, None).map_err(|error| error.to_string())?;
+            vehicle_run.effectiveness(&chosen.values, &inputs, None).map_err(|error| error.to_string())?;
         if is_usual {
-            at = at.without_idle(&flight, &chosen.values);
+            at = at.without_idle(&vehicle_run, &chosen.values);
         }
         if let Some(targets) = &targets {
-            at = trim(&flight, &chosen.values, &at.inputs, targets).map_err(|error| error.to_string())?.at;
+            at = trim(&vehicle_run, &chosen.values, &at.inputs, targets)
+                .map_err(|error| error.to_string())?
+                .at;
         }
         let values = at.applied(&chosen.values);
-        LinearModel::at(&flight, &values, &at, positions, design).map_err(|error| error.to_string())
+        LinearModel::at(&vehicle_run, &values, &at, positions, design).map_err(|error| error.to_string())
     })?;
     into_python(py, &model.map_err(PyValueError::new_err)?)
 }

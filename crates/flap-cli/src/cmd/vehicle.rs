@@ -11,7 +11,9 @@ use flap_core::simulate::{NoSlope, never};
 use flap_core::vehicle::{MassProperties, Vehicle};
 use flap_sweep::files::linear_model::LinearModel;
 use flap_sweep::notation::text;
-use flap_sweep::vehicle::control::{COMPONENTS, ControlError, Effectiveness, Flight, Input, Target, trim};
+use flap_sweep::vehicle::control::{
+    COMPONENTS, ControlError, Effectiveness, Input, Target, VehicleRun, trim,
+};
 use flap_sweep::vehicle::hover::damping;
 
 use self::parts::{HEADINGS, input, tidy, title};
@@ -56,12 +58,12 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
         let failure = Failure::usage("--damping and --hover are two tables, but csv and json contain one");
         return Err(failure.help("run the command once with --damping and once with --hover"));
     }
-    let flight = Flight { vehicle, solver: chosen.plan.solver(), interrupted: &never };
+    let vehicle_run = VehicleRun { vehicle, solver: chosen.plan.solver(), interrupted: &never };
     let targets = targets(&args.trim, &vehicle.mass_properties(&chosen.values))?;
     let mut page = String::new();
-    let at_point = |inputs: &[Input]| flight.effectiveness(&chosen.values, inputs, None);
+    let at_point = |inputs: &[Input]| vehicle_run.effectiveness(&chosen.values, inputs, None);
     let here = if args.inputs.is_empty() {
-        Some(at_point(&inputs)?.without_idle(&flight, &chosen.values))
+        Some(at_point(&inputs)?.without_idle(&vehicle_run, &chosen.values))
     } else {
         None
     };
@@ -69,17 +71,17 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     let found = if targets.is_empty() {
         here.map_or_else(|| at_point(&inputs), Ok)?
     } else {
-        let found = trim(&flight, &chosen.values, &inputs, &targets)?;
+        let found = trim(&vehicle_run, &chosen.values, &inputs, &targets)?;
         let _ = writeln!(page, "trimmed in {}\n", text::count(found.steps as u64, "step"));
         found.at
     };
     let values = found.applied(&chosen.values);
     if let Some(seconds) = args.fly {
-        return fly::run(args, seconds, &flight, &values, &found.inputs);
+        return fly::run(args, seconds, &vehicle_run, &values, &found.inputs);
     }
-    let damping = if args.damping { Some(damping(&flight, &values, &found.row.state)?) } else { None };
+    let damping = if args.damping { Some(damping(&vehicle_run, &values, &found.row.state)?) } else { None };
     let model = if args.hover || export.is_some() {
-        Some(LinearModel::at(&flight, &values, &found, false, chosen.title())?)
+        Some(LinearModel::at(&vehicle_run, &values, &found, false, chosen.title())?)
     } else {
         None
     };

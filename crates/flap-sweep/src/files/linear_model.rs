@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 
 use super::matlab::{self, Variable};
 use crate::notation::text;
-use crate::vehicle::control::{Effectiveness, Flight};
+use crate::vehicle::control::{Effectiveness, VehicleRun};
 use crate::vehicle::hover::{HoverError, HoverModel, STATES, WRENCH_UNITS, component};
 
 /// Input of a linear model, in SI units.
@@ -76,16 +76,16 @@ impl LinearModel {
     /// # Errors
     /// An error if mass properties are missing or impossible, if the body moves, or if a derivative is missing.
     pub fn at(
-        flight: &Flight<'_>,
+        vehicle_run: &VehicleRun<'_>,
         values: &[f64],
         at: &Effectiveness,
         has_position: bool,
         design: String,
     ) -> Result<LinearModel, HoverError> {
-        let vehicle = flight.vehicle;
+        let vehicle = vehicle_run.vehicle;
         let parameters = vehicle.parameters();
         let index = |name: &str| Parameter::index(parameters, name);
-        let hover = HoverModel::at(flight, values, at, has_position)?;
+        let hover = HoverModel::at(vehicle_run, values, at, has_position)?;
         let response =
             index("body_response").and_then(|index| text::option(&parameters[index], values[index]));
         let inputs = at.inputs.iter().zip(&at.values).map(|(input, value)| LinearInput {

@@ -211,7 +211,7 @@ pub struct Trim {
 /// An error if there are fewer inputs than targets, if the initial motion is not periodic, or if the targets are not
 /// reached.
 pub fn trim(
-    flight: &Flight<'_>,
+    vehicle_run: &VehicleRun<'_>,
     values: &[f64],
     inputs: &[Input],
     targets: &[Target],
@@ -220,10 +220,10 @@ pub fn trim(
         let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
         return Err(ControlError::FewInputs { targets: targets.len(), inputs: names.join(", ") });
     }
-    let mut values = own_values(flight.vehicle, values, inputs);
-    let sizes = inputs.iter().map(|input| input.size(flight.vehicle, &values));
+    let mut values = own_values(vehicle_run.vehicle, values, inputs);
+    let sizes = inputs.iter().map(|input| input.size(vehicle_run.vehicle, &values));
     let sizes: Vec<f64> = sizes.collect::<Result<_, _>>()?;
-    let mut at = flight.effectiveness(&values, inputs, None)?;
+    let mut at = vehicle_run.effectiveness(&values, inputs, None)?;
     let first = largest(&at.wrench, targets);
     let own = targets.iter().map(|target| if target.value == 0.0 { first } else { target.value.abs() });
     let own = DVector::from_iterator(targets.len(), own);
@@ -246,15 +246,15 @@ pub fn trim(
             for ((input, size), step) in inputs.iter().zip(&sizes).zip(step.iter()) {
                 tried[input.parameter] += part * size * step;
             }
-            let row = flight.settled(&tried, Some(&at.row.state)).ok()?;
-            let left = missed_by(&flight.wrench(&row), targets);
+            let row = vehicle_run.settled(&tried, Some(&at.row.state)).ok()?;
+            let left = missed_by(&vehicle_run.wrench(&row), targets);
             let is_closer = left.component_div(&own).norm() < missed.component_div(&own).norm();
             is_closer.then_some((tried, row))
         });
         let Some((tried, row)) = next else { break };
         values = tried;
         steps += 1;
-        at = flight.effectiveness(&values, inputs, Some(&row.state))?;
+        at = vehicle_run.effectiveness(&values, inputs, Some(&row.state))?;
     }
     let all = DVector::from_element(targets.len(), largest(&at.wrench, targets));
     // Newton's iteration cannot reduce a distance below the error of the row.
@@ -344,8 +344,8 @@ pub(crate) fn because(reason: Option<&str>) -> String {
     reason.map(|reason| format!(" ({reason})")).unwrap_or_default()
 }
 
-/// A vehicle at an operating point.
-pub struct Flight<'f> {
+/// A vehicle with the settings of its runs. The operating point is an argument of each method.
+pub struct VehicleRun<'f> {
     /// Vehicle.
     pub vehicle: &'f Vehicle,
     /// Settings of the integration.
@@ -380,7 +380,7 @@ pub struct Mode {
     pub inputs: Vec<f64>,
 }
 
-impl Flight<'_> {
+impl VehicleRun<'_> {
     /// Returns the row at the given values of the vehicle's parameters. If `begin` is given, the motion starts from the
     /// state `begin`.
     pub fn row(&self, values: &[f64], begin: Option<&[f64]>) -> Row {
@@ -388,7 +388,7 @@ impl Flight<'_> {
         self.vehicle.run_point(&run, begin)
     }
 
-    /// Returns the row of a periodic motion. [`Flight::row`] has the same arguments.
+    /// Returns the row of a periodic motion. [`VehicleRun::row`] has the same arguments.
     ///
     /// # Errors
     /// Returns an error if the motion is not periodic, or if the computation is interrupted.
@@ -535,9 +535,9 @@ impl Effectiveness {
     }
 
     /// Returns the control effectiveness without inputs that have a negligible effect, unless no input would be left.
-    pub fn without_idle(mut self, flight: &Flight<'_>, values: &[f64]) -> Effectiveness {
+    pub fn without_idle(mut self, vehicle_run: &VehicleRun<'_>, values: &[f64]) -> Effectiveness {
         let effects = self.inputs.iter().enumerate().map(|(j, input)| {
-            let size = input.size(flight.vehicle, values).unwrap_or_default() / input.factor;
+            let size = input.size(vehicle_run.vehicle, values).unwrap_or_default() / input.factor;
             self.matrix.column(j).amax() * size
         });
         let effects: Vec<f64> = effects.collect();

@@ -16,7 +16,7 @@ use flap_core::simulate::{Simulator as _, SolverSettings, Unfinished};
 use flap_core::vehicle::{MassProperties, MovingWings};
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
 
-use super::control::{COMPONENTS, ControlError, Flight, Input, own_values};
+use super::control::{COMPONENTS, ControlError, Input, VehicleRun, own_values};
 use super::hover::{HoverError, HoverModel, STATES, WRENCH_TO_SI, body_at_rest, inertia, inverse_mass};
 
 /// Number of states of a disturbance and of the feedback: velocities, rates and angles.
@@ -71,7 +71,7 @@ pub enum FlightError {
 /// Returns an error for an impossible request, missing mass properties, a moving body, or a motion of the wings that is
 /// not periodic. If a flight fails later, its record ends early.
 pub fn fly(
-    flight: &Flight<'_>,
+    vehicle_run: &VehicleRun<'_>,
     values: &[f64],
     request: &FlightRequest,
 ) -> Result<FlightRecord, FlightError> {
@@ -93,13 +93,13 @@ pub fn fly(
             ));
         }
     }
-    let body = body_at_rest(flight.vehicle, values)?;
-    let values = own_values(flight.vehicle, values, inputs);
+    let body = body_at_rest(vehicle_run.vehicle, values)?;
+    let values = own_values(vehicle_run.vehicle, values, inputs);
     let point = DVector::from_iterator(inputs.len(), inputs.iter().map(|input| values[input.parameter]));
     let mut motion: Box<dyn Motion + '_> = if *is_averaged {
-        Box::new(Averaged::new(flight, &values, inputs, disturbance)?)
+        Box::new(Averaged::new(vehicle_run, &values, inputs, disturbance)?)
     } else {
-        Box::new(Coupled::new(flight, values, body, inputs, disturbance)?)
+        Box::new(Coupled::new(vehicle_run, values, body, inputs, disturbance)?)
     };
     if !(*seconds > 0.0 && *seconds <= MOST_BEATS * motion.period()) {
         return refused(format!(
@@ -113,7 +113,7 @@ pub fn fly(
         if time >= seconds * (1.0 - 1e-12) {
             break None;
         }
-        if (flight.interrupted)() {
+        if (vehicle_run.interrupted)() {
             return Err(HoverError::from(ControlError::from(Unfinished::Interrupted)).into());
         }
         let period = motion.period();
@@ -135,7 +135,7 @@ pub fn fly(
         time += period;
         if let Some(gains) = gains {
             now = &point - gains * DVector::from_column_slice(&means.states[..FED_BACK]);
-            let set = check_ranges(flight, inputs, &now).and_then(|()| motion.set_inputs(&now));
+            let set = check_ranges(vehicle_run, inputs, &now).and_then(|()| motion.set_inputs(&now));
             if let Err(reason) = set {
                 break Some(reason);
             }
@@ -145,9 +145,9 @@ pub fn fly(
 }
 
 /// Checks that the values of the inputs (SI) are in the ranges of their parameters.
-fn check_ranges(flight: &Flight<'_>, inputs: &[Input], values: &DVector<f64>) -> Result<(), String> {
+fn check_ranges(vehicle_run: &VehicleRun<'_>, inputs: &[Input], values: &DVector<f64>) -> Result<(), String> {
     for (input, &value) in inputs.iter().zip(values.iter()) {
-        let parameter = &flight.vehicle.parameters()[input.parameter];
+        let parameter = &vehicle_run.vehicle.parameters()[input.parameter];
         if let Kind::Number(range) | Kind::Following(range, _) = parameter.kind
             && !range.contains(value)
         {
@@ -210,7 +210,7 @@ const BODY_SCALE: [f64; BODY] = [0.1, 0.1, 0.1, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.
 /// m (v̇ + ω × v) = F − m g Rᵀ e_z     I ω̇ + ω × I ω = M     q̇ = ½ q (0, ω)     ẋ = R v
 /// ```
 struct Coupled<'a> {
-    flight: &'a Flight<'a>,
+    vehicle_run: &'a VehicleRun<'a>,
     values: Vec<f64>,
     inputs: &'a [Input],
     equations: Equations,
@@ -233,23 +233,23 @@ struct Equations {
 
 impl<'a> Coupled<'a> {
     fn new(
-        flight: &'a Flight<'a>,
+        vehicle_run: &'a VehicleRun<'a>,
         values: Vec<f64>,
         body: MassProperties,
         inputs: &'a [Input],
         disturbance: &[f64; FED_BACK],
     ) -> Result<Coupled<'a>, HoverError> {
-        let settled = flight.settled(&values, None)?.state;
-        let wings = flight.vehicle.moving_wings(&values).map_err(ControlError::from)?;
+        let settled = vehicle_run.settled(&values, None)?.state;
+        let wings = vehicle_run.vehicle.moving_wings(&values).map_err(ControlError::from)?;
         let of_wings = settled.len();
         let mut scale = wings.scale();
         scale.extend(BODY_SCALE);
         scale.resize(of_wings + BODY + INTEGRALS, f64::INFINITY);
-        let integrator = Integrator { solver: flight.solver, scale, step: wings.period() / 200.0 };
+        let integrator = Integrator { solver: vehicle_run.solver, scale, step: wings.period() / 200.0 };
         let inverse = inverse_mass(&body)?.fixed_view::<3, 3>(3, 3).into_owned();
         let equations = Equations { wings, of_wings, body, inertia: inertia(&body), inverse };
         let mut coupled =
-            Coupled { flight, values, inputs, equations, y: Vec::new(), integrator, heading: 0.0 };
+            Coupled { vehicle_run, values, inputs, equations, y: Vec::new(), integrator, heading: 0.0 };
         coupled.begin(&settled, &[0.0; FED_BACK]);
         let vibration = coupled.vibration().map_err(|_| ControlError::from(Unfinished::Diverged))?;
         coupled.begin(&settled, &core::array::from_fn(|i| disturbance[i] - vibration[i]));
@@ -329,7 +329,7 @@ impl Motion for Coupled<'_> {
         for (input, &value) in self.inputs.iter().zip(inputs.iter()) {
             self.values[input.parameter] = value;
         }
-        let wings = self.flight.vehicle.moving_wings(&self.values);
+        let wings = self.vehicle_run.vehicle.moving_wings(&self.values);
         self.equations.wings = wings.map_err(|error| error.to_string())?;
         Ok(())
     }
@@ -453,18 +453,18 @@ struct Averaged {
 
 impl Averaged {
     fn new(
-        flight: &Flight<'_>,
+        vehicle_run: &VehicleRun<'_>,
         values: &[f64],
         inputs: &[Input],
         disturbance: &[f64; FED_BACK],
     ) -> Result<Averaged, HoverError> {
-        let at = flight.effectiveness(values, inputs, None)?;
-        let hover = HoverModel::at(flight, values, &at, true)?;
+        let at = vehicle_run.effectiveness(values, inputs, None)?;
+        let hover = HoverModel::at(vehicle_run, values, &at, true)?;
         let residual = inverse_mass(&hover.body)? * Vector6::from(hover.residual());
         let mut y = DVector::zeros(2 * N + 1);
         y.rows_mut(0, FED_BACK).copy_from_slice(disturbance);
         y[2 * N] = 1.0;
-        let frequency = Parameter::index(flight.vehicle.parameters(), "drive_frequency");
+        let frequency = Parameter::index(vehicle_run.vehicle.parameters(), "drive_frequency");
         Ok(Averaged {
             hover,
             point: DVector::from_iterator(inputs.len(), inputs.iter().map(|input| values[input.parameter])),

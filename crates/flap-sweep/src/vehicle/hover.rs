@@ -12,7 +12,7 @@ use flap_core::simulate::Simulator as _;
 use flap_core::vehicle::{MassProperties, Vehicle};
 use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, SMatrix, Schur, Vector6};
 
-use super::control::{self, COMPONENTS, ControlError, Effectiveness, Flight, Input, Target};
+use super::control::{self, COMPONENTS, ControlError, Effectiveness, Input, Target, VehicleRun};
 
 /// Names and units of the states: velocities, rates, small angles about the body axes, and positions.
 pub const STATES: [(&str, &str); 12] = [
@@ -176,10 +176,14 @@ pub(super) fn body_at_rest(vehicle: &Vehicle, values: &[f64]) -> Result<MassProp
 /// # Errors
 /// Returns an error if the model has no motion of the body, if the motion is not periodic, or if a derivative is
 /// missing.
-pub fn damping(flight: &Flight<'_>, values: &[f64], begin: &[f64]) -> Result<Matrix6<f64>, HoverError> {
-    let motions = BodyParameters::MOTION.into_iter().map(|name| Input::of(flight.vehicle, name));
+pub fn damping(
+    vehicle_run: &VehicleRun<'_>,
+    values: &[f64],
+    begin: &[f64],
+) -> Result<Matrix6<f64>, HoverError> {
+    let motions = BodyParameters::MOTION.into_iter().map(|name| Input::of(vehicle_run.vehicle, name));
     let motions: Vec<Input> = motions.collect::<Result<_, _>>().map_err(|_| HoverError::NoBodyMotion)?;
-    let found = flight.effectiveness(values, &motions, Some(begin))?;
+    let found = vehicle_run.effectiveness(values, &motions, Some(begin))?;
     Ok(Matrix6::from_fn(|i, j| found.matrix[(i, j)] * WRENCH_TO_SI[i]))
 }
 
@@ -197,15 +201,19 @@ pub fn targets(body: &MassProperties) -> Option<Vec<Target>> {
 /// # Errors
 /// Returns an error if the mass is not set, the mass properties are impossible, the body moves, or no trim exists. The
 /// moments of inertia may be missing.
-pub fn trim(flight: &Flight<'_>, values: &[f64], inputs: &[Input]) -> Result<Effectiveness, HoverError> {
-    let body = flight.vehicle.mass_properties(values);
+pub fn trim(
+    vehicle_run: &VehicleRun<'_>,
+    values: &[f64],
+    inputs: &[Input],
+) -> Result<Effectiveness, HoverError> {
+    let body = vehicle_run.vehicle.mass_properties(values);
     let targets = targets(&body).ok_or_else(|| HoverError::Missing(vec!["total_mass"]))?;
     if body.inertia.iter().all(|moment| !moment.is_nan()) {
         check(&body)?;
     }
-    at_rest(flight.vehicle, values)?;
-    let found = flight.effectiveness(values, inputs, None)?.without_idle(flight, values);
-    match control::trim(flight, values, &found.inputs, &targets) {
+    at_rest(vehicle_run.vehicle, values)?;
+    let found = vehicle_run.effectiveness(values, inputs, None)?.without_idle(vehicle_run, values);
+    match control::trim(vehicle_run, values, &found.inputs, &targets) {
         Ok(found) => Ok(found.at),
         Err(error @ (ControlError::FewInputs { .. } | ControlError::NotReached(_))) => {
             Err(HoverError::Trim(error))
@@ -284,13 +292,13 @@ impl HoverModel {
     /// # Errors
     /// Returns an error if mass properties are missing or impossible, if the body moves, or if a derivative is missing.
     pub fn at(
-        flight: &Flight<'_>,
+        vehicle_run: &VehicleRun<'_>,
         values: &[f64],
         at: &Effectiveness,
         has_position: bool,
     ) -> Result<HoverModel, HoverError> {
-        let body = body_at_rest(flight.vehicle, values)?;
-        let damping = damping(flight, values, &at.row.state)?;
+        let body = body_at_rest(vehicle_run.vehicle, values)?;
+        let damping = damping(vehicle_run, values, &at.row.state)?;
         let control = DMatrix::from_fn(6, at.inputs.len(), |i, j| {
             at.matrix[(i, j)] * WRENCH_TO_SI[i] / at.inputs[j].factor
         });

@@ -12,7 +12,7 @@ use flap_core::simulate::{
 use flap_core::vehicle::{Vehicle, standing};
 use nalgebra::DMatrix;
 
-use super::control::{COMPONENTS, ControlError, Effectiveness, Flight, Input};
+use super::control::{COMPONENTS, ControlError, Effectiveness, Input, VehicleRun};
 use super::hover::{HoverError, HoverMode, HoverModel, WRENCH_TO_SI, damping, residual_share, trim};
 use super::hover_slopes;
 use crate::derivative::{Per, column_name, meaning};
@@ -82,16 +82,17 @@ impl BodyRows {
         values: &[f64],
         interrupted: Interrupt<'_>,
     ) -> Option<Result<Effectiveness, HoverError>> {
-        let flight = Flight { vehicle: &self.vehicle, solver, interrupted };
-        self.inputs.as_ref().map(|inputs| trim(&flight, values, inputs))
+        let vehicle_run = VehicleRun { vehicle: &self.vehicle, solver, interrupted };
+        self.inputs.as_ref().map(|inputs| trim(&vehicle_run, values, inputs))
     }
 
     /// Returns the row at the values of `run`, without a search for hover.
     pub fn row_at(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
         let mut row = self.vehicle.run_point(run, begin);
         if row.status == Status::Periodic {
-            let flight = Flight { vehicle: &self.vehicle, solver: run.solver, interrupted: run.interrupted };
-            self.extend(&flight, run.values, &mut row);
+            let vehicle_run =
+                VehicleRun { vehicle: &self.vehicle, solver: run.solver, interrupted: run.interrupted };
+            self.extend(&vehicle_run, run.values, &mut row);
         }
         row
     }
@@ -157,12 +158,12 @@ impl BodyRows {
     }
 
     /// Adds the columns of this source to the measures of a row of the vehicle at these values.
-    fn extend(&self, flight: &Flight<'_>, values: &[f64], row: &mut Row) {
+    fn extend(&self, vehicle_run: &VehicleRun<'_>, values: &[f64], row: &mut Row) {
         // Cells stay empty if a derivative is missing, or the moments of inertia are not set.
-        let damping = damping(flight, values, &row.state).ok();
+        let damping = damping(vehicle_run, values, &row.state).ok();
         if let Some(inputs) = &self.inputs {
             let body = self.vehicle.mass_properties(values);
-            let wrench = flight.wrench(row);
+            let wrench = vehicle_run.wrench(row);
             let wrench = core::array::from_fn(|i| wrench[i] * WRENCH_TO_SI[i]);
             let residual = residual_share(&body, &wrench);
             let model = damping
@@ -202,12 +203,13 @@ impl Rows for BodyRows {
     /// The search for hover begins at rest, so it ignores `begin`.
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
         let Some(inputs) = &self.inputs else { return self.row_at(run, begin) };
-        let flight = Flight { vehicle: &self.vehicle, solver: run.solver, interrupted: run.interrupted };
-        match trim(&flight, run.values, inputs) {
+        let vehicle_run =
+            VehicleRun { vehicle: &self.vehicle, solver: run.solver, interrupted: run.interrupted };
+        match trim(&vehicle_run, run.values, inputs) {
             Ok(found) => {
                 let (values, mut row) = (found.applied(run.values), found.row);
                 if row.status == Status::Periodic {
-                    self.extend(&flight, &values, &mut row);
+                    self.extend(&vehicle_run, &values, &mut row);
                 }
                 row
             }

@@ -2,7 +2,7 @@
 
 use flap_core::simulate::Trajectory;
 use flap_sweep::notation::units;
-use flap_sweep::vehicle::control::{Flight, Input};
+use flap_sweep::vehicle::control::{Input, VehicleRun};
 use flap_sweep::vehicle::flight::{FED_BACK, FlightError, FlightRequest, fly};
 use flap_sweep::vehicle::hover::STATES;
 
@@ -15,7 +15,7 @@ use crate::print;
 pub(super) fn run(
     args: &VehicleArgs,
     seconds: f64,
-    flight: &Flight<'_>,
+    vehicle_run: &VehicleRun<'_>,
     values: &[f64],
     inputs: &[Input],
 ) -> Result<Exit, Failure> {
@@ -27,7 +27,7 @@ pub(super) fn run(
         is_averaged: false,
         samples: None,
     };
-    let record = fly(flight, values, &request).map_err(|error| match error {
+    let record = fly(vehicle_run, values, &request).map_err(|error| match error {
         FlightError::Hover(error) => error.into(),
         FlightError::Request(mistake) => Failure::usage(format!("--fly: {mistake}")),
     })?;
