@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use csv::StringRecord;
 use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::integrity::{self, Integrity, OnDamage};
-use flap_sweep::files::job::{self, Begin, Begun, Job};
+use flap_sweep::files::job::{self, Begun, Job, OnExisting};
 use flap_sweep::files::journal;
 use flap_sweep::files::results::{Format, Provenance, Writer};
 use flap_sweep::files::session::SessionOptions;
@@ -132,7 +132,8 @@ fn is_complete(path: &Path) -> bool {
     let sidecar = Sidecar::read(&sidecar_of(path)).unwrap();
     let plan = sidecar.plan(flap_core::simulate::all()).unwrap();
     let options = SessionOptions { run: RunOptions::default(), checkpoint_interval: Duration::ZERO };
-    let job = Job { plan: &plan, out: path.to_owned(), begin: Begin::Continue, options, origin: None };
+    let job =
+        Job { plan: &plan, out: path.to_owned(), on_existing: OnExisting::Continue, options, origin: None };
     matches!(job::begin(&job), Ok(Begun::Complete { .. }))
 }
 

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::files::integrity::{self, Integrity};
-use flap_sweep::files::job::{self, Begin, Begun, Done, Job, JobError};
+use flap_sweep::files::job::{self, Begun, Done, Job, JobError, OnExisting};
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::{Along, Plan};
@@ -106,9 +106,9 @@ fn a_model_that_breaks_its_contract_is_an_error() {
 }
 
 /// Runs a job that stops with the curve of index `stop_at`. `None` if the job is already complete.
-fn run(plan: &Plan, out: &Path, begin: Begin, stop_at: u64) -> Result<Option<Done>, JobError> {
+fn run(plan: &Plan, out: &Path, on_existing: OnExisting, stop_at: u64) -> Result<Option<Done>, JobError> {
     let options = SessionOptions { run: options(2, 100), checkpoint_interval: Duration::from_millis(5) };
-    let job = Job { plan, out: out.to_owned(), begin, options, origin: None };
+    let job = Job { plan, out: out.to_owned(), on_existing, options, origin: None };
     let mut writing = match job::begin(&job)? {
         Begun::Writing(writing) => writing,
         Begun::Complete { .. } => return Ok(None),
@@ -130,8 +130,8 @@ fn an_interrupted_response_goes_on_to_the_same_bytes() {
             fs::create_dir(&folder).unwrap();
             folder.join(name)
         });
-        assert!(matches!(run(&plan, &whole, Begin::Continue, u64::MAX), Ok(Some(_))));
-        let Ok(Some(first)) = run(&plan, &out, Begin::Continue, 300) else { panic!("{name}") };
+        assert!(matches!(run(&plan, &whole, OnExisting::Continue, u64::MAX), Ok(Some(_))));
+        let Ok(Some(first)) = run(&plan, &out, OnExisting::Continue, 300) else { panic!("{name}") };
         let Done { summary, .. } = first;
         assert!(
             summary.is_interrupted() && summary.ran > 300 && summary.ran < 2000,
@@ -139,12 +139,12 @@ fn an_interrupted_response_goes_on_to_the_same_bytes() {
             summary.ran
         );
         assert!(matches!(integrity::verify(&out), Ok(Integrity::Unfinished { done: Some(_) })), "{name}");
-        let Ok(Some(second)) = run(&plan, &out, Begin::Continue, u64::MAX) else { panic!("{name}") };
+        let Ok(Some(second)) = run(&plan, &out, OnExisting::Continue, u64::MAX) else { panic!("{name}") };
         assert!(second.rows_before > 1000, "{name}: {}", second.rows_before);
         assert_eq!((second.summary.ran, second.summary.rows), (2000, 12_000), "{name}");
         assert!(fs::read(&whole).unwrap() == fs::read(&out).unwrap(), "{name}: other bytes");
         assert_eq!(integrity::verify(&out).unwrap(), Integrity::Sound { rows: 12_000 }, "{name}");
-        assert!(matches!(run(&plan, &out, Begin::Continue, 0), Ok(None)), "{name}");
+        assert!(matches!(run(&plan, &out, OnExisting::Continue, 0), Ok(None)), "{name}");
     }
 }
 
@@ -156,7 +156,7 @@ fn every_format_holds_the_same_rows() {
         .iter()
         .map(|name| {
             let out = folder.path().join(name);
-            assert!(matches!(run(&plan, &out, Begin::Continue, u64::MAX), Ok(Some(_))));
+            assert!(matches!(run(&plan, &out, OnExisting::Continue, u64::MAX), Ok(Some(_))));
             let mut reader = Reader::new(fs::File::open(&out).unwrap(), Format::of(&out).unwrap()).unwrap();
             let mut lines = vec![reader.names().join(",")];
             let mut row = csv::StringRecord::new();
@@ -176,9 +176,11 @@ fn a_response_along_other_values_is_another() {
     let plan = curves(model, 2000);
     let folder = TempDir::new().unwrap();
     let out = folder.path().join("rows.csv");
-    assert!(matches!(run(&plan, &out, Begin::Continue, 10), Ok(Some(_))));
+    assert!(matches!(run(&plan, &out, OnExisting::Continue, 10), Ok(Some(_))));
     let along = plan.followed().unwrap().clone();
     let plan = plan.following(Along { tolerance: 0.2, ..along });
-    let Err(JobError::Resume { error, .. }) = run(&plan, &out, Begin::Continue, 0) else { panic!("resumed") };
+    let Err(JobError::Resume { error, .. }) = run(&plan, &out, OnExisting::Continue, 0) else {
+        panic!("resumed")
+    };
     assert!(error.to_string().contains("the followed parameter"), "{error}");
 }

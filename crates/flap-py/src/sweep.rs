@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use flap_core::simulate::{Setting, SettingKind, SolverSettings};
 use flap_sweep::derivative::{Per, column_name};
-use flap_sweep::files::job::{self, Begin, Begun, Job};
+use flap_sweep::files::job::{self, Begun, Job, OnExisting};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::plan::Plan;
 use flap_sweep::plan::gradient::Gradient;
@@ -44,13 +44,13 @@ pub(crate) fn sweep<'py>(
     let chunks = chunks.map(Bound::unbind);
     let plan = &grid.get().plan;
     let options = options(threads)?;
-    let begin = if restart { Begin::Restart } else { Begin::Continue };
+    let on_existing = if restart { OnExisting::Restart } else { OnExisting::Continue };
     match out {
         None if restart => Err(PyValueError::new_err("restart requires a file of results: give out")),
         None => into_columns(py, plan, &options, progress, chunks.as_ref()),
         Some(out) => {
             let options = SessionOptions { run: options, checkpoint_interval: CHECKPOINT };
-            let job = Job { plan, out, begin, options, origin: None };
+            let job = Job { plan, out, on_existing, options, origin: None };
             into_file(py, &job, progress, chunks.as_ref())
         }
     }

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use clap::ValueEnum;
 use flap_sweep::files::integrity::OnDamage;
-use flap_sweep::files::job::Begin;
+use flap_sweep::files::job::OnExisting;
 use flap_sweep::table::labels::{self, Direction};
 
 use super::values::{assignment, count, interval, positive, threads, tolerance};
@@ -107,8 +107,8 @@ pub(crate) struct BeginArgs {
 
 impl BeginArgs {
     /// Returns the treatment of existing results.
-    pub(crate) fn treatment(&self) -> Begin {
-        if self.restart { Begin::Restart } else { Begin::Continue }
+    pub(crate) fn on_existing(&self) -> OnExisting {
+        if self.restart { OnExisting::Restart } else { OnExisting::Continue }
     }
 }
 

@@ -55,8 +55,8 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
             Err(Failure::usage("--format cannot be used with --out -: stdout already has the rows"))
         }
         Some(out) => {
-            let begin = args.begin.treatment();
-            job::run_and_summarize(&plan, out.clone(), begin, &args.begin.work, None, args.format)
+            let on_existing = args.begin.on_existing();
+            job::run_and_summarize(&plan, out.clone(), on_existing, &args.begin.work, None, args.format)
         }
         None => without_rows(&plan, args, verdicts),
     }

@@ -29,7 +29,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
         Inputs::new().add("the sidecar", grid).protect_from_results(&out)?;
     }
     far::warn(&deviation::of(&plan));
-    job::run(&plan, out, args.begin.treatment(), &args.begin.work, origin)
+    job::run(&plan, out, args.begin.on_existing(), &args.begin.work, origin)
 }
 
 /// Returns the plan in the sidecar of earlier results, and the origin of the points if the results are a rerun.

@@ -7,7 +7,7 @@ mod report;
 mod run;
 mod verdicts;
 
-pub(crate) use flap_sweep::files::job::{Begin, to_resume};
+pub(crate) use flap_sweep::files::job::{OnExisting, to_resume};
 pub(crate) use make::make;
 pub(crate) use open::{
     open, open_recorded, plan_of, read_sidecar, recorded, require_checkpoint, require_own_sidecar, tell,

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 use flap_sweep::files::csv_sink::CsvSink;
-use flap_sweep::files::job::{self, Begin, Begun, Done, Job};
+use flap_sweep::files::job::{self, Begun, Done, Job, OnExisting};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::files::sidecar::Origin;
 use flap_sweep::plan::Plan;
@@ -29,18 +29,18 @@ use crate::system;
 pub(crate) fn run(
     plan: &Plan,
     out: PathBuf,
-    begin: Begin,
+    on_existing: OnExisting,
     work: &WorkArgs,
     origin: Option<Origin>,
 ) -> Result<Exit, Failure> {
-    run_and_summarize(plan, out, begin, work, origin, OutputFormat::Table)
+    run_and_summarize(plan, out, on_existing, work, origin, OutputFormat::Table)
 }
 
 /// Runs `plan` as [`run`] does, and prints summaries of curves in `format`.
 pub(crate) fn run_and_summarize(
     plan: &Plan,
     out: PathBuf,
-    begin: Begin,
+    on_existing: OnExisting,
     work: &WorkArgs,
     origin: Option<Origin>,
     format: OutputFormat,
@@ -55,7 +55,7 @@ pub(crate) fn run_and_summarize(
         return Ok(ended(plan, &done, Path::new("stdout"), work));
     }
     let options = SessionOptions { run: options, checkpoint_interval: work.checkpoint };
-    let job = Job { plan, out, begin, options, origin };
+    let job = Job { plan, out, on_existing, options, origin };
     let place = job.out.display();
     let failed = |error| Failure::of_job(error, &job.out);
     let mut writing = match job::begin(&job).map_err(failed)? {

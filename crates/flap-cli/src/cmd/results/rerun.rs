@@ -40,5 +40,5 @@ pub(super) fn run(args: &RerunArgs) -> Result<Exit, Failure> {
     }
     let plan = with_solver(plan.with_points(list)?, &args.solver)?;
     let origin = Some(Origin { of: of.to_string(), statuses });
-    job::run(&plan, args.out.clone(), args.begin.treatment(), &args.begin.work, origin)
+    job::run(&plan, args.out.clone(), args.begin.on_existing(), &args.begin.work, origin)
 }

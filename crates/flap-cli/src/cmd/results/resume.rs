@@ -7,7 +7,7 @@ use flap_sweep::files::sidecar::State;
 use crate::args::ResumeArgs;
 use crate::console;
 use crate::failure::{Exit, Failure};
-use crate::job::{self, Begin};
+use crate::job::{self, OnExisting};
 
 pub(super) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
     Failure::unless_results(&args.results)?;
@@ -23,5 +23,5 @@ pub(super) fn run(args: &ResumeArgs) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     }
     let origin = sidecar.origin().cloned();
-    job::run(&plan, args.results.clone(), Begin::Continue, &args.work, origin)
+    job::run(&plan, args.results.clone(), OnExisting::Continue, &args.work, origin)
 }

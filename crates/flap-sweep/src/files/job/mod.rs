@@ -32,7 +32,7 @@ pub struct Job<'a> {
     /// Result file.
     pub out: PathBuf,
     /// Treatment of existing results.
-    pub begin: Begin,
+    pub on_existing: OnExisting,
     /// Options of the session.
     pub options: SessionOptions,
     /// Earlier results whose points are run again, if this is a rerun.
@@ -41,7 +41,7 @@ pub struct Job<'a> {
 
 /// Treatment of existing results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Begin {
+pub enum OnExisting {
     /// Unfinished rows of the job are continued. If the rows are complete, nothing is run. Existing results with other
     /// rows are an error.
     Continue,
@@ -109,8 +109,8 @@ pub struct Done {
 pub fn begin<'a>(job: &'a Job<'a>) -> Result<Begun<'a>, JobError> {
     Inputs::new().add_plan(job.plan).protect_from_results(&job.out)?;
     // `resume` rejects a disk, because its contents must not be overwritten. `start` writes to a disk.
-    match job.begin {
-        Begin::Continue if !disk::is_stream(&job.out) => job.resume(),
+    match job.on_existing {
+        OnExisting::Continue if !disk::is_stream(&job.out) => job.resume(),
         _ => job.start(),
     }
 }
@@ -119,7 +119,7 @@ impl<'a> Job<'a> {
     /// Begins the job at its first point.
     fn start(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
-        let overwrite = self.begin == Begin::Restart;
+        let overwrite = self.on_existing == OnExisting::Restart;
         let (file, lock) = output::create(&self.out, overwrite)?;
         let Some(lock) = lock else {
             let sink = CsvSink::new(Layout::of(self.plan).names(), file);
