@@ -2,8 +2,9 @@
 
 use flap_core::vehicle::Vehicle;
 use flap_sweep::files::linear_model::LinearModel;
-use flap_sweep::vehicle::control::{Input, VehicleRun, trim};
+use flap_sweep::vehicle::control::{Input, VehicleRun};
 use flap_sweep::vehicle::hover::{self, component};
+use flap_sweep::vehicle::trim;
 use nalgebra::DMatrix;
 use numpy::{PyArray1, PyArray2};
 use pyo3::exceptions::PyValueError;
@@ -48,7 +49,7 @@ pub(crate) fn linear<'py>(
             at = at.without_idle(&vehicle_run, &chosen.values);
         }
         if let Some(targets) = &targets {
-            at = trim(&vehicle_run, &chosen.values, &at.inputs, targets)
+            at = trim::to_targets(&vehicle_run, &chosen.values, &at.inputs, targets)
                 .map_err(|error| error.to_string())?
                 .at;
         }

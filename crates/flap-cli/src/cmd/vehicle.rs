@@ -11,10 +11,9 @@ use flap_core::simulate::{NoSlope, never};
 use flap_core::vehicle::{MassProperties, Vehicle};
 use flap_sweep::files::linear_model::LinearModel;
 use flap_sweep::notation::text;
-use flap_sweep::vehicle::control::{
-    COMPONENTS, ControlError, Effectiveness, Input, Target, VehicleRun, trim,
-};
+use flap_sweep::vehicle::control::{COMPONENTS, ControlError, Effectiveness, Input, VehicleRun};
 use flap_sweep::vehicle::hover::damping;
+use flap_sweep::vehicle::trim::{self, Target};
 
 use self::parts::{HEADINGS, input, tidy, title};
 use super::point::Chosen;
@@ -71,7 +70,7 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     let found = if targets.is_empty() {
         here.map_or_else(|| at_point(&inputs), Ok)?
     } else {
-        let found = trim(&vehicle_run, &chosen.values, &inputs, &targets)?;
+        let found = trim::to_targets(&vehicle_run, &chosen.values, &inputs, &targets)?;
         let _ = writeln!(page, "trimmed in {}\n", text::count(found.steps as u64, "step"));
         found.at
     };

@@ -12,7 +12,8 @@ use flap_core::simulate::Simulator as _;
 use flap_core::vehicle::{MassProperties, Vehicle};
 use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, SMatrix, Schur, Vector6};
 
-use super::control::{self, COMPONENTS, ControlError, Effectiveness, Input, Target, VehicleRun};
+use super::control::{COMPONENTS, ControlError, Effectiveness, Input, VehicleRun};
+use super::trim::{self, Target};
 
 /// Names and units of the states: velocities, rates, small angles about the body axes, and positions.
 pub const STATES: [(&str, &str); 12] = [
@@ -213,7 +214,7 @@ pub fn trim(
     }
     at_rest(vehicle_run.vehicle, values)?;
     let found = vehicle_run.effectiveness(values, inputs, None)?.without_idle(vehicle_run, values);
-    match control::trim(vehicle_run, values, &found.inputs, &targets) {
+    match trim::to_targets(vehicle_run, values, &found.inputs, &targets) {
         Ok(found) => Ok(found.at),
         Err(error @ (ControlError::FewInputs { .. } | ControlError::NotReached(_))) => {
             Err(HoverError::Trim(error))

@@ -5,6 +5,7 @@ pub mod flight;
 pub mod hover;
 mod hover_slopes;
 mod rows;
+pub mod trim;
 
 pub(crate) use hover::TRIM_LIMIT;
 pub use rows::BodyRows;

@@ -9,8 +9,8 @@ use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::linear_model::{LinearFormat, LinearModel};
 use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
-use flap_sweep::vehicle::control::Target;
 use flap_sweep::vehicle::hover::{self, HoverError, HoverMode, STATES, WRENCH_UNITS, component};
+use flap_sweep::vehicle::trim::Target;
 use nalgebra::Matrix6;
 
 use super::super::outputs;

@@ -1,0 +1,123 @@
+//! Trims of a vehicle: inputs that give a target force and torque.
+
+use core::iter::successors;
+
+use nalgebra::{DMatrix, DVector};
+
+use super::control::{COMPONENTS, ControlError, Effectiveness, Input, VehicleRun, own_values};
+
+/// Largest number of steps of Newton's iteration.
+const MOST_STEPS: usize = 40;
+
+/// Relative tolerance of a target. If the error of the motion is larger than this tolerance, the tolerance is relative
+/// to the largest component.
+const TOLERANCE: f64 = 1e-6;
+
+/// Largest relative distance from a target that is accepted because of the error of the row.
+const LOOSEST: f64 = 5e-3;
+
+/// Largest change of the inputs in a step, as a multiple of the typical size of each input.
+const LARGEST_STEP: f64 = 0.2;
+
+/// Smallest fraction of a Newton step that the search tries.
+const SMALLEST_PART: f64 = 1e-3;
+
+/// A target value of a component.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// Index in [`COMPONENTS`].
+    pub component: usize,
+    /// Target value (mN or uN·m).
+    pub value: f64,
+}
+
+/// Inputs that give the target force and torque.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Trim {
+    /// Control effectiveness at the trim, with the values of the inputs.
+    pub at: Effectiveness,
+    /// Number of steps of Newton's iteration.
+    pub steps: usize,
+}
+
+/// Returns the inputs near `values` that give the `targets`, by Newton's iteration with exact derivatives.
+///
+/// If there are more inputs than targets, each step is the smallest possible step, relative to the typical sizes of the
+/// inputs.
+///
+/// # Errors
+/// An error if there are fewer inputs than targets, if the initial motion is not periodic, or if the targets are not
+/// reached.
+pub fn to_targets(
+    vehicle_run: &VehicleRun<'_>,
+    values: &[f64],
+    inputs: &[Input],
+    targets: &[Target],
+) -> Result<Trim, ControlError> {
+    if targets.len() > inputs.len() {
+        let names: Vec<&str> = inputs.iter().map(|input| input.name.as_str()).collect();
+        return Err(ControlError::FewInputs { targets: targets.len(), inputs: names.join(", ") });
+    }
+    let mut values = own_values(vehicle_run.vehicle, values, inputs);
+    let sizes = inputs.iter().map(|input| input.size(vehicle_run.vehicle, &values));
+    let sizes: Vec<f64> = sizes.collect::<Result<_, _>>()?;
+    let mut at = vehicle_run.effectiveness(&values, inputs, None)?;
+    let first = largest(&at.wrench, targets);
+    let own = targets.iter().map(|target| if target.value == 0.0 { first } else { target.value.abs() });
+    let own = DVector::from_iterator(targets.len(), own);
+    let mut steps = 0;
+    while steps < MOST_STEPS {
+        let missed = missed_by(&at.wrench, targets);
+        if is_met(&missed, &own, TOLERANCE) {
+            return Ok(Trim { at, steps });
+        }
+        let slopes = DMatrix::from_fn(targets.len(), inputs.len(), |i, j| {
+            at.matrix[(targets[i].component, j)] / inputs[j].factor * sizes[j]
+        });
+        let step =
+            slopes.svd(true, true).solve(&missed, 1e-12).unwrap_or_else(|_| DVector::zeros(inputs.len()));
+        let first = (LARGEST_STEP / step.amax()).min(1.0);
+        let mut parts =
+            successors(Some(first), |part| Some(0.5 * part).filter(|part| *part >= SMALLEST_PART));
+        let next = parts.find_map(|part| {
+            let mut tried = values.clone();
+            for ((input, size), step) in inputs.iter().zip(&sizes).zip(step.iter()) {
+                tried[input.parameter] += part * size * step;
+            }
+            let row = vehicle_run.settled(&tried, Some(&at.row.state)).ok()?;
+            let left = missed_by(&vehicle_run.wrench(&row), targets);
+            let is_closer = left.component_div(&own).norm() < missed.component_div(&own).norm();
+            is_closer.then_some((tried, row))
+        });
+        let Some((tried, row)) = next else { break };
+        values = tried;
+        steps += 1;
+        at = vehicle_run.effectiveness(&values, inputs, Some(&row.state))?;
+    }
+    let all = DVector::from_element(targets.len(), largest(&at.wrench, targets));
+    // Newton's iteration cannot reduce a distance below the error of the row.
+    if is_met(&missed_by(&at.wrench, targets), &all, TOLERANCE.max(at.row.error_estimate.min(LOOSEST))) {
+        return Ok(Trim { at, steps });
+    }
+    let nearest = targets.iter().map(|Target { component, value }| {
+        format!("{} = {:.7} instead of {value:.7}", COMPONENTS[*component], at.wrench[*component])
+    });
+    Err(ControlError::NotReached(nearest.collect::<Vec<_>>().join(", ")))
+}
+
+/// Returns the targets minus the components.
+fn missed_by(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
+    let missed = targets.iter().map(|target| target.value - wrench[target.component]);
+    DVector::from_iterator(targets.len(), missed)
+}
+
+/// Returns the largest magnitude of components and targets.
+fn largest(wrench: &[f64; 6], targets: &[Target]) -> f64 {
+    let targets = targets.iter().map(|target| &target.value);
+    wrench.iter().chain(targets).fold(0.0, |one: f64, other| one.max(other.abs()))
+}
+
+/// Returns true if the error of each target is at most `tolerance` times the size of the target.
+fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>, tolerance: f64) -> bool {
+    missed.iter().zip(sizes.iter()).all(|(missed, size)| missed.abs() <= tolerance * size)
+}
