@@ -187,15 +187,15 @@ fn table(found: &Effectiveness) -> String {
         cells.push(made(&column));
         matrix.row(cells);
     }
-    let modes = found.modes();
-    let largest = modes.first().map_or(0.0, |mode| mode.size);
-    let mut combinations = Table::with_headings(&["size", "inputs", "force and torque"]);
-    for mode in modes.iter().filter(|mode| mode.size > NOTHING * largest) {
-        let inputs = named(&mode.inputs, |i| found.inputs[i].name.clone());
-        combinations.row([
-            six_digits(mode.size),
+    let combinations = found.combinations();
+    let largest = combinations.first().map_or(0.0, |strongest| strongest.size);
+    let mut strong = Table::with_headings(&["size", "inputs", "force and torque"]);
+    for combination in combinations.iter().filter(|combination| combination.size > NOTHING * largest) {
+        let inputs = named(&combination.inputs, |i| found.inputs[i].name.clone());
+        strong.row([
+            six_digits(combination.size),
             inputs,
-            named(&mode.components, |i| HEADINGS[i].to_owned()),
+            named(&combination.components, |i| HEADINGS[i].to_owned()),
         ]);
     }
     let width = console::width();
@@ -205,7 +205,7 @@ fn table(found: &Effectiveness) -> String {
         here.text_within(width),
         torque.text_within(width),
         matrix.text_within(width),
-        combinations.text_within(width)
+        strong.text_within(width)
     )
 }
 

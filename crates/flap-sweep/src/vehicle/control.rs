@@ -252,7 +252,7 @@ pub struct Effectiveness {
 
 /// A combination of inputs, and the resulting combination of force and torque.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mode {
+pub struct InputCombination {
     /// Singular value: force (mN) and torque (uN·m, which is mN at 1 mm) per unit of the combination.
     pub size: f64,
     /// Components of force and torque as a unit vector.
@@ -435,20 +435,20 @@ impl Effectiveness {
     /// Returns the combinations of inputs that produce force and torque, beginning with the strongest combination.
     ///
     /// The combinations and their effects are the singular value decomposition of the matrix.
-    pub fn modes(&self) -> Vec<Mode> {
+    pub fn combinations(&self) -> Vec<InputCombination> {
         let decomposed = self.matrix.clone().svd(true, true);
         let (Some(u), Some(v_t)) = (decomposed.u, decomposed.v_t) else { return Vec::new() };
-        let modes = decomposed.singular_values.iter().enumerate().map(|(i, &size)| {
+        let combinations = decomposed.singular_values.iter().enumerate().map(|(i, &size)| {
             let inputs = v_t.row(i).transpose();
             // The sign is chosen so that the largest input is positive.
             let sign = inputs[inputs.iamax()].signum();
-            Mode {
+            InputCombination {
                 size,
                 components: core::array::from_fn(|j| sign * u[(j, i)]),
                 inputs: inputs.iter().map(|share| sign * share).collect(),
             }
         });
-        modes.collect()
+        combinations.collect()
     }
 }
 
@@ -458,35 +458,36 @@ mod tests {
 
     use super::*;
 
-    fn modes(matrix: DMatrix<f64>) -> Vec<Mode> {
+    fn combinations(matrix: DMatrix<f64>) -> Vec<InputCombination> {
         let (inputs, values, row) = (Vec::new(), Vec::new(), Row::invalid(""));
-        Effectiveness { inputs, values, wrench: [0.0; 6], matrix, row }.modes()
+        Effectiveness { inputs, values, wrench: [0.0; 6], matrix, row }.combinations()
     }
 
     #[test]
     fn a_combination_of_one_input_has_the_sign_of_its_effect() {
-        let mode = modes(DMatrix::from_column_slice(6, 1, &[0.0, 0.0, 0.0, 0.0, -0.05, 0.0])).remove(0);
-        assert!((mode.size - 0.05).abs() < 1e-12, "{mode:?}");
-        assert!((mode.inputs[0] - 1.0).abs() < 1e-12, "{mode:?}");
-        assert!((mode.components[4] + 1.0).abs() < 1e-12, "{mode:?}");
+        let combination =
+            combinations(DMatrix::from_column_slice(6, 1, &[0.0, 0.0, 0.0, 0.0, -0.05, 0.0])).remove(0);
+        assert!((combination.size - 0.05).abs() < 1e-12, "{combination:?}");
+        assert!((combination.inputs[0] - 1.0).abs() < 1e-12, "{combination:?}");
+        assert!((combination.components[4] + 1.0).abs() < 1e-12, "{combination:?}");
     }
 
     /// The matrix times the inputs of a combination is its size times its force and torque.
     #[test]
     fn combinations_have_the_effect_of_the_matrix() {
         let matrix = DMatrix::from_fn(6, 3, |i, j| (1.3 * i as f64 + 0.7 * (i * j) as f64 + 2.9).sin());
-        let modes = modes(matrix.clone());
-        assert_eq!(modes.len(), 3);
-        assert!(modes.is_sorted_by(|one, next| one.size >= next.size), "{modes:?}");
-        for mode in modes {
-            let inputs = DVector::from_vec(mode.inputs.clone());
-            let components = DVector::from_column_slice(&mode.components);
-            assert!((&matrix * &inputs - mode.size * &components).amax() < 1e-12, "{mode:?}");
+        let combinations = combinations(matrix.clone());
+        assert_eq!(combinations.len(), 3);
+        assert!(combinations.is_sorted_by(|one, next| one.size >= next.size), "{combinations:?}");
+        for combination in combinations {
+            let inputs = DVector::from_vec(combination.inputs.clone());
+            let components = DVector::from_column_slice(&combination.components);
+            assert!((&matrix * &inputs - combination.size * &components).amax() < 1e-12, "{combination:?}");
             assert!(
                 (inputs.norm() - 1.0).abs() < 1e-12 && (components.norm() - 1.0).abs() < 1e-12,
-                "{mode:?}"
+                "{combination:?}"
             );
-            assert!(inputs[inputs.iamax()] > 0.0, "{mode:?}");
+            assert!(inputs[inputs.iamax()] > 0.0, "{combination:?}");
         }
     }
 }
