@@ -82,7 +82,7 @@ impl<T> Queue<T> {
             if let Some(index) = state.window.hand_out() {
                 return Some(index);
             }
-            self.wake_puller(&state);
+            self.wake_collector(&state);
             if !may_wait {
                 return None;
             }
@@ -100,10 +100,10 @@ impl<T> Queue<T> {
         if !state.window.insert(index, outcome) {
             state.fail(RunError::Model(format!("it returned a row for point {index}, which is not running")));
         }
-        self.wake_puller(&state);
+        self.wake_collector(&state);
     }
 
-    fn wake_puller(&self, state: &State<T>) {
+    fn wake_collector(&self, state: &State<T>) {
         if state.window.is_worth_taking(BATCH) {
             self.outcomes.notify_one();
         }
@@ -185,8 +185,8 @@ impl<T> State<T> {
 ///
 /// ```text
 /// 0 ── written ──── taken ──────── handed_out ──── total
-///      │ being      │ `units`: here or    │ not yet
-///      │ written    │ still running      │ begun
+///      │ being      │ `outcomes`: here   │ not yet
+///      │ written    │ or still running   │ begun
 /// ```
 ///
 /// Units of work are numbered in the order of assignment. For points, the number of a unit of work is its position
@@ -197,7 +197,7 @@ pub(super) struct Window<T> {
     written: u64,
     taken: u64,
     handed_out: u64,
-    units: VecDeque<Option<T>>,
+    outcomes: VecDeque<Option<T>>,
     /// Number of units of work with an outcome that was not taken.
     waiting: usize,
 }
@@ -211,7 +211,7 @@ impl<T> Window<T> {
             written: units.start,
             taken: units.start,
             handed_out: units.start,
-            units: VecDeque::new(),
+            outcomes: VecDeque::new(),
             waiting: 0,
         }
     }
@@ -226,7 +226,7 @@ impl<T> Window<T> {
         if self.is_exhausted() || self.is_full() {
             return None;
         }
-        self.units.push_back(None);
+        self.outcomes.push_back(None);
         self.handed_out += 1;
         Some(self.handed_out - 1)
     }
@@ -235,7 +235,7 @@ impl<T> Window<T> {
     /// has an outcome.
     pub(super) fn insert(&mut self, index: u64, outcome: T) -> bool {
         let place = index.checked_sub(self.taken).and_then(|place| usize::try_from(place).ok());
-        match place.and_then(|place| self.units.get_mut(place)) {
+        match place.and_then(|place| self.outcomes.get_mut(place)) {
             Some(slot @ None) => {
                 *slot = Some(outcome);
                 self.waiting += 1;
@@ -247,7 +247,7 @@ impl<T> Window<T> {
 
     /// Returns true if an outcome can be taken, and either `enough` outcomes are present or the window is full.
     pub(super) fn is_worth_taking(&self, enough: usize) -> bool {
-        let next_is_here = matches!(self.units.front(), Some(Some(_)));
+        let next_is_here = matches!(self.outcomes.front(), Some(Some(_)));
         next_is_here && (self.waiting >= enough || self.is_full())
     }
 
@@ -258,9 +258,9 @@ impl<T> Window<T> {
     /// Moves at most `limit` consecutive outcomes after the last taken outcome to `batch`.
     pub(super) fn take(&mut self, batch: &mut Vec<T>, limit: usize) {
         while batch.len() < limit
-            && let Some(Some(_)) = self.units.front()
+            && let Some(Some(_)) = self.outcomes.front()
         {
-            batch.extend(self.units.pop_front().flatten());
+            batch.extend(self.outcomes.pop_front().flatten());
             self.waiting -= 1;
             self.taken += 1;
         }
