@@ -116,9 +116,9 @@ impl<'a, T, M: Model<N>, const N: usize> Running<'a, T, M, N> {
 
 /// Source of searches and receiver of their outputs.
 trait Source<'a, T, M: Model<N>, const N: usize> {
-    /// Returns the next search, or `None` if there is none at present. If `wait` is true, the call may wait, and
+    /// Returns the next search, or `None` if there is none at present. If `idle` is true, the call may wait, and
     /// `None` is the end.
-    fn next(&mut self, wait: bool) -> Option<Run<'a, T, M, N>>;
+    fn next(&mut self, idle: bool) -> Option<Run<'a, T, M, N>>;
 
     /// Receives the output of the search with this index.
     fn done(&mut self, index: u64, output: T);
@@ -138,7 +138,7 @@ struct Points<'a, 'j, M> {
 
 impl<M> Points<'_, '_, M> {
     /// Returns the next point of this variant. Points of other variants are set aside, up to a limit.
-    fn next_point<const N: usize>(&mut self, wait: bool) -> Option<Point>
+    fn next_point<const N: usize>(&mut self, idle: bool) -> Option<Point>
     where
         M: Model<N>,
     {
@@ -147,7 +147,7 @@ impl<M> Points<'_, '_, M> {
         }
         while self.waiting.len() < ASIDE {
             // While points are set aside, the call does not wait for more.
-            let point = self.jobs.next(wait && self.waiting.is_empty())?;
+            let point = self.jobs.next(idle && self.waiting.is_empty())?;
             let variant = self.model.variant(&point.values);
             if variant == *self.model {
                 return Some(point);
@@ -159,9 +159,9 @@ impl<M> Points<'_, '_, M> {
 }
 
 impl<'a, M: Model<N>, const N: usize> Source<'a, SearchResult<N>, M, N> for Points<'a, '_, M> {
-    fn next(&mut self, wait: bool) -> Option<Run<'a, SearchResult<N>, M, N>> {
+    fn next(&mut self, idle: bool) -> Option<Run<'a, SearchResult<N>, M, N>> {
         loop {
-            let Point { index, values, begin } = self.next_point(wait)?;
+            let Point { index, values, begin } = self.next_point(idle)?;
             match start_at(self.model, &values, begin.as_deref()) {
                 Ok(start) => {
                     let (model, solver) = (self.model, self.solver);
@@ -191,7 +191,7 @@ struct Single<'a, 'i, T, M: Model<N>, const N: usize> {
 }
 
 impl<'a, T, M: Model<N>, const N: usize> Source<'a, T, M, N> for Single<'a, '_, T, M, N> {
-    fn next(&mut self, _wait: bool) -> Option<Run<'a, T, M, N>> {
+    fn next(&mut self, _idle: bool) -> Option<Run<'a, T, M, N>> {
         self.run.take()
     }
 
@@ -298,7 +298,7 @@ where
 
     /// Continues a search to its next request. Returns the search if the request is of this kind; otherwise it waits
     /// or has ended.
-    fn go_on(
+    fn poll_search(
         &mut self,
         mut run: Run<'a, T, M, N>,
         kind: Kind,
@@ -349,7 +349,7 @@ where
                 }
                 self.source.next(true)?
             };
-            if let Some((run, Some(begin))) = self.go_on(run, kind) {
+            if let Some((run, Some(begin))) = self.poll_search(run, kind) {
                 return Some((run, begin));
             }
         }
@@ -390,7 +390,7 @@ where
             period.monodromy = monodromy(end.responses, &run.start.scale);
         }
         run.exchange.finish(period);
-        let (run, begin) = self.driver.go_on(run, self.kind)?;
+        let (run, begin) = self.driver.poll_search(run, self.kind)?;
         self.runs[lane] = Some(run);
         Some(begin.map_or(Next::Span, Next::Restart))
     }
