@@ -23,12 +23,6 @@ const SIZED: u32 = 2;
 /// Its absolute tolerance is then a multiple of its actual size.
 const SMALL: f64 = 0.1;
 
-/// Returns the factor on absolute tolerances for an orbit through the state `y`, which may be small.
-pub(super) fn share_of_tolerance<const N: usize>(y: &[f64; N], scale: &[f64; N]) -> f64 {
-    let overall = (0..N).fold(0.0_f64, |size, i| size.max(y[i].abs() / scale[i]));
-    if overall == 0.0 { 1.0 } else { (overall / SMALL).min(1.0) }
-}
-
 /// Smallest size of a state for its tolerance, relative to the largest state of the motion.
 const NEGLIGIBLE: f64 = 1e-6;
 
@@ -133,4 +127,10 @@ impl<const N: usize> March<N> {
     pub(super) fn change(&self, periods: u32) -> f64 {
         self.strobe.change(periods)
     }
+}
+
+/// Returns the factor on absolute tolerances for an orbit through the state `y`, which may be small.
+pub(super) fn share_of_tolerance<const N: usize>(y: &[f64; N], scale: &[f64; N]) -> f64 {
+    let overall = (0..N).fold(0.0_f64, |size, i| size.max(y[i].abs() / scale[i]));
+    if overall == 0.0 { 1.0 } else { (overall / SMALL).min(1.0) }
 }
