@@ -6,8 +6,8 @@
 //! No operation mixes lanes. The results of a run do not depend on other runs, and equal the results of
 //! [`super::solve`] to the last bit.
 
-mod bank;
 mod integrate;
+mod lane_runs;
 mod queue;
 mod schedule;
 

@@ -3,7 +3,7 @@
 
 use core::ops::AddAssign;
 
-use super::bank::{Bank, Events};
+use super::lane_runs::{Events, LaneRuns};
 use super::queue::{MOST_LANES, Next, Observer, Queue, SpanEnd};
 use crate::num::{Lanes, Simd, Vector};
 use crate::ode::{Ending, INTERRUPT_STEPS, Ode, Outcome, Start, Tolerances};
@@ -66,9 +66,9 @@ fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: us
     )
 }
 
-/// The numbers in the lanes, and the state of each lane.
+/// The runs in the lanes, and the state of each lane.
 struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
-    bank: Bank<R, O, V, N, D>,
+    runs: LaneRuns<R, O, V, N, D>,
     /// Value of `steps` at the beginning of the run in each lane.
     began: [u64; MOST_LANES],
     /// Number of steps that all lanes attempted together.
@@ -92,7 +92,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
     ) -> Self {
         const { assert!(R::LANES <= MOST_LANES) };
         let mut schedule = Schedule {
-            bank: Bank::new(token, observer, tolerances, first),
+            runs: LaneRuns::new(token, observer, tolerances, first),
             began: [0; MOST_LANES],
             steps: 0,
             used: 0,
@@ -105,7 +105,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
 
     /// Loads a run into a lane.
     fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
-        self.bank.load(lane, start, observer);
+        self.runs.load(lane, start, observer);
         self.begin(lane);
     }
 
@@ -125,7 +125,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
                 return Occupancy { used: self.used, room: self.steps * R::LANES as u64 };
             }
             if self.fresh != 0 {
-                self.bank.begin(ode, self.fresh);
+                self.runs.begin(ode, self.fresh);
                 self.fresh = 0;
             }
             // In a function of its own: beside the code for the queue, the steps take up to 1 % more instructions.
@@ -171,16 +171,16 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
                 continue;
             }
             let failed = events.failed & bit != 0;
-            let ending = if failed { self.bank.failure(lane) } else { Ending::Stopped };
+            let ending = if failed { self.runs.failure(lane) } else { Ending::Stopped };
             let steps = self.steps - self.began[lane];
-            let (y, totals) = (&self.bank.state(lane), &self.bank.totals(lane));
-            let responses = &self.bank.responses(lane);
-            let outcome = Outcome::new::<O, N>(ending, steps, self.bank.switches(lane));
+            let (y, totals) = (&self.runs.state(lane), &self.runs.totals(lane));
+            let responses = &self.runs.responses(lane);
+            let outcome = Outcome::new::<O, N>(ending, steps, self.runs.switches(lane));
             match queue.ended(lane, SpanEnd { y, totals, responses, outcome }) {
-                Some(Next::Span) if !failed => self.bank.begin_span(lane),
+                Some(Next::Span) if !failed => self.runs.begin_span(lane),
                 Some(Next::Restart(next)) => {
                     self.used += steps;
-                    self.bank.restart(lane, &next, observer);
+                    self.runs.restart(lane, &next, observer);
                     self.begin(lane);
                 }
                 _ => {
@@ -194,7 +194,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
     /// Attempts one step in every lane.
     #[inline(always)]
     fn step(&mut self, ode: &O, observer: &V) -> Events {
-        let Events { landed, failed } = self.bank.advance(ode, observer);
+        let Events { landed, failed } = self.runs.advance(ode, observer);
         self.steps += 1;
         let landed = landed & self.active;
         Events { landed, failed: failed & self.active & !landed }

@@ -1,4 +1,4 @@
-//! Numbers in the lanes of an ensemble, and the integration of one step in all lanes.
+//! The runs in the lanes of an ensemble, and the integration of one step in all lanes.
 
 use super::queue::Observer;
 use crate::num::{Lanes, PerLane};
@@ -11,7 +11,7 @@ use crate::ode::variation::{RESPONSE_SCALE, Varied};
 use crate::ode::{Ending, MIN_STEP, Ode, Start, Tolerances};
 
 /// Numbers of the runs in all lanes, with the responses to D changes of the initial state.
-pub(super) struct Bank<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
+pub(super) struct LaneRuns<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
     token: R::Token,
     tolerances: Tolerances,
 
@@ -43,8 +43,8 @@ pub(super) struct Events {
     pub(super) failed: u64,
 }
 
-impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Bank<R, O, V, N, D> {
-    /// Returns a bank with the same run in each lane, so that the numbers in idle lanes are finite.
+impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> LaneRuns<R, O, V, N, D> {
+    /// Returns the same run in each lane, so that the numbers in idle lanes are finite.
     #[inline(always)]
     pub(super) fn new(
         token: R::Token,
@@ -58,7 +58,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Ban
         for (i, response) in responses.iter_mut().enumerate() {
             response.y[0][i] = number.lit(change[i]);
         }
-        Bank {
+        LaneRuns {
             token,
             tolerances: *tolerances,
             constants: O::Constants::<R>::fill(number, constants),
