@@ -366,6 +366,9 @@ impl Equations {
 }
 
 /// Dormand-Prince 5(4) with step-size control, for any number of states.
+///
+/// [`flap_core::ode::solve`] needs the number of states at compile time. Here, the number of wings determines the number
+/// of states.
 struct Integrator<'a> {
     /// Tolerances, relative to each state and to its typical size, and the largest number of steps of an integration.
     solver: &'a SolverSettings,
