@@ -18,7 +18,7 @@ use flap_sweep::study::deviation;
 use flap_sweep::study::linked::{self, Linked};
 use flap_sweep::study::survey;
 
-use super::{far, grid};
+use super::{deviations, grid};
 use crate::args::{CheckArgs, OutputFormat};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -28,7 +28,7 @@ use crate::table::{self, Table, wrapped};
 
 pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
     let plan = grid::read(&args.grid)?;
-    far::warn(&deviation::of(&plan));
+    deviations::warn(&deviation::of(&plan));
     match args.format {
         OutputFormat::Table => console::results(&page(&plan, args))?,
         format => print::table(format, &NAMES, &rows(&plan, args), String::new)?,

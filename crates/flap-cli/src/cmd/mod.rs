@@ -2,8 +2,8 @@
 
 pub(crate) mod check;
 pub(crate) mod describe;
+mod deviations;
 pub(crate) mod device;
-mod far;
 pub(crate) mod generate;
 mod gradient;
 mod grid;

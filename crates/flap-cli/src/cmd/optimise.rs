@@ -18,7 +18,7 @@ use flap_sweep::study::deviation;
 use flap_sweep::study::optimum::{Aim, Optimum, Problem, Status, optimise};
 use shared::{measures, refused, settings, watched};
 
-use super::{far, grid as grids, outputs, point};
+use super::{deviations, grid as grids, outputs, point};
 use crate::args::OptimiseArgs;
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
@@ -40,7 +40,7 @@ const MAIN: [&str; 6] = [
 
 pub(crate) fn run(args: &OptimiseArgs) -> Result<Exit, Failure> {
     let plan = point::with_solver(grids::read(&args.grid)?, &args.solver)?;
-    far::warn(&deviation::of(&plan));
+    deviations::warn(&deviation::of(&plan));
     if args.out.is_some() {
         let what = args.grid.display().to_string();
         point::check_one_wing(&plan, &what, "a device, which --out writes,")?;

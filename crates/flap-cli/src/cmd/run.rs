@@ -16,7 +16,7 @@ use super::grid::is_stdin;
 use super::motion::write_motions_file;
 use super::point::{Chosen, check_one_wing, find_parameter};
 use super::samples::{self, DriveRecord};
-use super::{far, outputs};
+use super::{deviations, outputs};
 use crate::args::{OutputFormat, PointArgs, RunArgs, SolverArgs};
 use crate::console::{self, shell_word};
 use crate::failure::{Exit, Failure};
@@ -101,7 +101,9 @@ impl Design {
         if let Some(option) = of_one_wing(args) {
             check_one_wing(&chosen.plan, &point.what, &format!("`flap run` with {option}"))?;
         }
-        far::warn(&deviation::of_point(&chosen.plan, &chosen.values, |parameter| chosen.has_unit(parameter)));
+        deviations::warn(&deviation::of_point(&chosen.plan, &chosen.values, |parameter| {
+            chosen.has_unit(parameter)
+        }));
         let measure =
             args.gradient.as_deref().map(|column| gradient::measure(&chosen, column)).transpose()?;
         let name = args.name(&point.what).map(|name| ("design".to_owned(), name));

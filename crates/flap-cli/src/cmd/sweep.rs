@@ -10,7 +10,7 @@ use flap_sweep::plan::selection::Shard;
 use flap_sweep::study::deviation;
 
 use crate::args::SweepArgs;
-use crate::cmd::{far, grid};
+use crate::cmd::{deviations, grid};
 use crate::failure::{Exit, Failure};
 use crate::job;
 
@@ -28,7 +28,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     if is_sidecar {
         Inputs::new().add("the sidecar", grid).protect_from_results(&out)?;
     }
-    far::warn(&deviation::of(&plan));
+    deviations::warn(&deviation::of(&plan));
     job::run(&plan, out, args.begin.on_existing(), &args.begin.work, origin)
 }
 
