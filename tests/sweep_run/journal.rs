@@ -28,7 +28,7 @@ pub(crate) fn often() -> SessionOptions {
 
 pub(crate) fn start(path: &Path, plan: &Plan) -> Session {
     let file = output::create(path, false).unwrap().0;
-    Session::start(file, (path, Format::of(path).unwrap()), plan, &often(), ("2026-01-02".to_owned(), false))
+    Session::start(file, (path, Format::of(path).unwrap()), plan, &often(), "2026-01-02".to_owned(), false)
         .unwrap()
 }
 

@@ -109,7 +109,8 @@ impl Session {
         (path, format): (&Path, Format),
         plan: &Plan,
         options: &SessionOptions,
-        (started, replaces): (String, bool),
+        started: String,
+        replaces: bool,
     ) -> io::Result<Session> {
         let header = Header::new(started, replaces, Identity::of(plan, &options.run));
         let journal = Journal::create(&journal_of(path), &header)?;

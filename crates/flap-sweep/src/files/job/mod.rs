@@ -167,7 +167,7 @@ impl<'a> Job<'a> {
         let sidecar = self.sidecar(started.clone());
         let begun = output::check_beside(place, format).map_err(JobError::from).and_then(|()| {
             write_sidecar(place, &sidecar, false)?;
-            Session::start(file, (place, format), self.plan, &self.options, (started, replaces))
+            Session::start(file, (place, format), self.plan, &self.options, started, replaces)
                 .map_err(|error| JobError::write(place, error, false))
         });
         let session = begun.inspect_err(|_| {
