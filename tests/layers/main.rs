@@ -1,10 +1,10 @@
-//! The structure of the crates: their rooms, the use of the outside world by flap-core, the thresholds of flap-core,
+//! The structure of the crates: their modules, the use of the outside world by flap-core, the thresholds of flap-core,
 //! and the hash of the sources.
 
-mod house;
+mod import_graph;
 mod manifests;
+mod modules;
 mod names;
-mod rooms;
 mod source;
 mod sources;
 mod thresholds;

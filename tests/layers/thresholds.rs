@@ -6,8 +6,8 @@ use crate::source::source_files;
 
 const METHODS: &str = include_str!("../../docs/models/methods.md");
 
-/// Rooms whose thresholds decide about steps, orbits and measures.
-const ROOMS: &[&str] = &["ode/", "measure/", "simulate/"];
+/// Modules whose thresholds decide about steps, orbits and measures.
+const MODULES: &[&str] = &["ode/", "measure/", "simulate/"];
 
 /// Files whose constants are coefficients of published methods, not thresholds.
 const COEFFICIENTS: &[&str] = &["ode/tableau.rs"];
@@ -16,7 +16,7 @@ const COEFFICIENTS: &[&str] = &["ode/tableau.rs"];
 fn in_sources() -> BTreeSet<[String; 3]> {
     let mut found = BTreeSet::new();
     for file in source_files("flap-core") {
-        let decides = ROOMS.iter().any(|room| file.path.starts_with(room));
+        let decides = MODULES.iter().any(|module| file.path.starts_with(module));
         if !decides || COEFFICIENTS.contains(&file.path.as_str()) {
             continue;
         }

@@ -1,4 +1,4 @@
-//! The uses of files by other files of the same crate.
+//! The imports of files by other files of the same crate.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -8,8 +8,8 @@ use petgraph::graphmap::DiGraphMap;
 use crate::names::{Names, Path};
 use crate::source::SourceFile;
 
-/// The files of a crate, each with the files that it uses.
-pub(crate) struct House {
+/// The files of a crate, each with the files that it imports.
+pub(crate) struct ImportGraph {
     /// The path of each file, by its module.
     files: BTreeMap<Path, String>,
     names: BTreeMap<Path, Names>,
@@ -17,14 +17,14 @@ pub(crate) struct House {
     macros: BTreeMap<String, Path>,
 }
 
-impl House {
-    pub(crate) fn new(files: &[SourceFile]) -> House {
+impl ImportGraph {
+    pub(crate) fn new(files: &[SourceFile]) -> ImportGraph {
         let names: BTreeMap<Path, Names> =
             files.iter().map(|file| (file.module(), Names::of(file))).collect();
         let macros = names
             .iter()
             .flat_map(|(module, names)| names.macros.iter().map(|name| (name.clone(), module.clone())));
-        House {
+        ImportGraph {
             macros: macros.collect(),
             files: files.iter().map(|file| (file.module(), file.path.clone())).collect(),
             names,
@@ -52,32 +52,32 @@ impl House {
                 None => return module.to_vec(),
             }
         }
-        panic!("{} is handed on in a circle", path.join("::"));
+        panic!("{} is handed on in a cycle", path.join("::"));
     }
 
-    /// Each pair of two files, as paths below `src`: the first file uses the second file.
-    pub(crate) fn arrows(&self) -> BTreeSet<(&str, &str)> {
-        let mut arrows = BTreeSet::new();
+    /// Each pair of two files, as paths below `src`: the first file imports the second file.
+    pub(crate) fn imports(&self) -> BTreeSet<(&str, &str)> {
+        let mut imports = BTreeSet::new();
         for (module, names) in &self.names {
             for path in &names.used {
                 let used = self.definer(path);
                 // Names that are not the crate's lead to the module itself, or to the root.
                 if used != *module && !used.is_empty() {
-                    arrows.insert((&*self.files[module], &*self.files[&used]));
+                    imports.insert((&*self.files[module], &*self.files[&used]));
                 }
             }
         }
-        arrows
+        imports
     }
 
-    /// The cycles: groups of files in which each file uses all other files, directly or through other files.
-    pub(crate) fn circles(&self) -> Vec<Vec<&str>> {
-        let graph: DiGraphMap<&str, ()> = self.arrows().into_iter().collect();
-        let mut circles: Vec<Vec<&str>> =
+    /// The cycles: groups of files in which each file imports all other files, directly or through other files.
+    pub(crate) fn cycles(&self) -> Vec<Vec<&str>> {
+        let graph: DiGraphMap<&str, ()> = self.imports().into_iter().collect();
+        let mut cycles: Vec<Vec<&str>> =
             tarjan_scc(&graph).into_iter().filter(|files| files.len() > 1).collect();
-        for files in &mut circles {
+        for files in &mut cycles {
             files.sort_unstable();
         }
-        circles
+        cycles
     }
 }
