@@ -5,7 +5,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use flap_core::model::bimorph::{self, Bimorph};
 use flap_core::model::direct_drive::{self, DirectDrive};
 use flap_core::model::four_bar::{self, FourBar};
-use flap_core::model::{Instant, Load, Motions};
+use flap_core::model::{ExperimentModel, Instant, Load};
 use flap_core::parameter::Parameter;
 use flap_core::quadrature::gauss_legendre;
 
@@ -70,7 +70,7 @@ fn translational(
 }
 
 /// Returns the load of a model without and with the terms, at stroke and pitch with their rates and accelerations.
-fn loads<M: Motions<4>>(
+fn loads<M: ExperimentModel<4>>(
     model: &M,
     values: &[f64],
     up: f64,
@@ -95,7 +95,7 @@ fn loads<M: Motions<4>>(
 
 /// Asserts that the terms change the loads and the sums over strips equally, at these velocities of the body. `law`
 /// returns drag coefficient, lift coefficient and centre of pressure at an attack angle, with `share` times the terms.
-fn assert_terms<M: Motions<4>>(
+fn assert_terms<M: ExperimentModel<4>>(
     model: &M,
     values: &[f64],
     (strips, density): (&[Strip], f64),

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use flap_core::drive::Wave;
-use flap_core::model::Motions;
+use flap_core::model::ExperimentModel;
 use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::DirectDrive;
 use flap_core::model::four_bar::FourBar;
@@ -20,7 +20,7 @@ fn assert_near(actual: f64, expected: f64, distance: f64, what: &str) {
 }
 
 /// The state after an impulse, and the derivative at rest with a constant drive.
-fn released<M: Motions<4>>(model: &M, values: &[f64]) -> (M::Constants<f64>, [f64; 4], [f64; 4]) {
+fn released<M: ExperimentModel<4>>(model: &M, values: &[f64]) -> (M::Constants<f64>, [f64; 4], [f64; 4]) {
     let start = model.start(values).unwrap();
     let (still, c, y) = model.variant(values).released(&start.constants, 2.0);
     // At any time: the drive does not change.
@@ -81,7 +81,7 @@ fn unequal_plates_rest_before_an_impulse() {
 /// The equations of motion, linearised at rest by differences, have the natural frequencies of the modes.
 #[test]
 fn modes_are_those_of_the_equations() {
-    fn frequencies<M: Motions<4>>(
+    fn frequencies<M: ExperimentModel<4>>(
         model: &M,
         values: &[f64],
         [positions, rates]: [[usize; 2]; 2],

@@ -1,6 +1,6 @@
 //! Signals, loads and modes of a model at one state, for all models.
 
-use flap_core::model::{Instant, Load, Model, Motions, SignalsOf};
+use flap_core::model::{ExperimentModel, Instant, Load, Model, SignalsOf};
 
 /// A model with its constants under an input, on one side of its switching surface.
 #[derive(Clone, Copy)]
@@ -24,7 +24,7 @@ impl<M: Model<4>> Probe<'_, M> {
 }
 
 /// Natural frequencies (Hz) of both modes.
-pub(crate) fn modes<M: Motions<4>>(c: &M::Constants<f64>) -> [f64; 2] {
+pub(crate) fn modes<M: ExperimentModel<4>>(c: &M::Constants<f64>) -> [f64; 2] {
     let modes = M::modes(c);
     [modes[0].frequency, modes[1].frequency]
 }

@@ -8,7 +8,7 @@ use core::ops::ControlFlow;
 
 use crate::drive::Samples;
 use crate::measure::cycle::{SignalObserver, Sums, finish};
-use crate::model::{Measure, Model, Motions, Signal, SignalSet};
+use crate::model::{ExperimentModel, Measure, Model, Signal, SignalSet};
 use crate::modes::Mode;
 use crate::num::{PerLane, Scalar};
 use crate::ode::Start;
@@ -19,7 +19,7 @@ use crate::simulate::{
     Sampler, Simulator, Trajectory, Unfinished, on_scalars, sampled, shown, trajectory_columns,
 };
 
-impl<M: Motions<N>, const N: usize> Experiments for Runner<M, N> {
+impl<M: ExperimentModel<N>, const N: usize> Experiments for Runner<M, N> {
     fn chirp(&self, run: &PointRun<'_>, request: &ChirpRequest) -> Result<ChirpResponse, Unfinished> {
         on_scalars!(run, R => chirp::<M, R, N>(&self.model, run, request))
     }
@@ -64,7 +64,7 @@ impl<M: Motions<N>, const N: usize> Experiments for Runner<M, N> {
 }
 
 /// Returns the response to a chirp that begins at rest.
-fn chirp<M: Motions<N>, R: Scalar, const N: usize>(
+fn chirp<M: ExperimentModel<N>, R: Scalar, const N: usize>(
     model: &M,
     run: &PointRun<'_>,
     request: &ChirpRequest,
@@ -143,7 +143,7 @@ fn envelope_columns<M: Model<N>, const N: usize>() -> Vec<String> {
 }
 
 /// Returns the motion after an impulse, during which the drive voltage stays constant.
-fn free_response<M: Motions<N>, R: Scalar, const N: usize>(
+fn free_response<M: ExperimentModel<N>, R: Scalar, const N: usize>(
     model: &M,
     run: &PointRun<'_>,
     request: &ImpulseRequest,

@@ -1,6 +1,6 @@
 //! Claims that follow from Table I without integrating a motion.
 
-use flap_core::model::Motions;
+use flap_core::model::ExperimentModel;
 use flap_core::model::bimorph::{Bimorph, Constants, Params, secant_stiffness};
 
 use super::{constants, transmission};

@@ -1,7 +1,7 @@
 //! Sweeps of the frequency as in the measurements of the paper, Eq. (7), and the two motions of the sweeps with a soft
 //! hinge.
 
-use flap_core::model::Motions;
+use flap_core::model::ExperimentModel;
 use flap_core::model::bimorph::{Bimorph, Params};
 use flap_core::num::Backend;
 use flap_core::simulate::{ChirpRequest, PointRun};

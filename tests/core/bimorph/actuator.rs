@@ -4,7 +4,7 @@ use flap_core::drive::{Repeat, Samples};
 use flap_core::model::bimorph::{
     ActuatorStiffness, Bimorph, Constants, FieldTransition, Params, secant_stiffness,
 };
-use flap_core::model::{Model, Motions};
+use flap_core::model::{ExperimentModel, Model};
 
 use super::params;
 use crate::data::{assert_close, table};

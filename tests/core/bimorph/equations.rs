@@ -2,7 +2,7 @@
 
 use flap_core::drive::{Shape, Wave, WaveformParameters};
 use flap_core::model::bimorph::{Bimorph, CentreOfPressure, Constants, Params, Plate, secant_stiffness};
-use flap_core::model::{Model, Motions};
+use flap_core::model::{ExperimentModel, Model};
 use flap_core::num::Real;
 use flap_core::ode::Ode;
 

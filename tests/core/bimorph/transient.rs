@@ -1,6 +1,6 @@
 //! Motions from rest against reference end states.
 
-use flap_core::model::Motions;
+use flap_core::model::ExperimentModel;
 use flap_core::model::bimorph::{Bimorph, Constants, Params};
 use flap_core::num::Backend;
 use flap_core::ode::Start;

@@ -6,16 +6,16 @@
 //! - constants derived from the parameters once per point ([`crate::per_lane!`]),
 //! - the signals, a struct with one field for each ([`crate::signals!`]),
 //! - equations of motion ([`crate::ode::Ode`]) and the values of the signals ([`Model`]), written once for scalars and lanes,
-//! - for single motions, the states and drives at their beginning ([`Motions`]).
+//! - for experiments, the states and drives at their beginning ([`ExperimentModel`]).
 //!
 //! [`Runner`](crate::simulate::Runner) computes the rows of a model. Its page contains a complete user-defined model.
 
 pub mod bimorph;
 mod definition;
 pub mod direct_drive;
+mod experiment;
 pub mod four_bar;
 mod load;
-mod motions;
 pub mod readings;
 mod signal;
 mod signals;
@@ -24,8 +24,8 @@ mod terms;
 mod totals;
 
 pub use definition::{Derived, Description, Instant, Model, SecondHalf, Symmetry};
+pub use experiment::{ExperimentModel, Imposed};
 pub use load::Load;
-pub use motions::{Imposed, Motions};
 pub(crate) use signal::GRAVITY;
 pub use signal::{Measure, OverWings, Principal, Signal, SignalCycle, Statistics, Unit};
 pub use signals::{Each, SignalSet, SignalsOf};

@@ -3,7 +3,7 @@
 //! A mass matrix couples stroke and pitch. If the stroke is free, the equations of motion are solved for stroke and
 //! pitch. If the stroke is prescribed, the equations are solved for the pitch alone.
 
-use super::motions::Imposed;
+use super::experiment::Imposed;
 use crate::drive::{Drive, DriveConstants, Wave};
 use crate::num::Real;
 use crate::ode::Start;
@@ -88,7 +88,7 @@ pub fn start<C>(
 }
 
 /// Returns the state, the derivative of the state and the drive of a wing with imposed stroke and pitch, for
-/// [`Motions::placed`](super::Motions::placed).
+/// [`ExperimentModel::placed`](super::ExperimentModel::placed).
 ///
 /// `stroke` and `pitch` contain value (rad), rate (rad/s) and second derivative (rad/s²).
 pub fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
@@ -106,7 +106,7 @@ pub(crate) fn inertias_apart([a, b, c, d]: &[&str; 4]) -> Invalid {
 }
 
 /// Returns the state immediately after an impulse at rest that gives the stroke a rate (rad/s), for
-/// [`Motions::struck`](super::Motions::struck).
+/// [`ExperimentModel::struck`](super::ExperimentModel::struck).
 ///
 /// With the mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), the impulse also causes the pitch rate `−(M₁₂/M₂₂) stroke rate`.
 pub fn struck([_, m12, m22]: [f64; 3], stroke_rate: f64) -> [f64; 4] {

@@ -145,7 +145,7 @@ pub struct Runner<M, const N: usize> {
     experiments: fn(&Self) -> Option<&dyn Experiments>,
 }
 
-impl<M: model::Motions<N>, const N: usize> Runner<M, N> {
+impl<M: model::ExperimentModel<N>, const N: usize> Runner<M, N> {
     /// Returns a simulator that also supports experiments. Compiles under the conditions of [`Runner::new`].
     pub const fn with_experiments(model: M) -> Self {
         const { Self::CHECKED }

@@ -21,8 +21,8 @@ use crate::model::OverWings::{Each, Sum};
 use crate::model::readings::{efficiency, grams_force, hinge_strain, lag_degrees};
 use crate::model::signal::DEGREES;
 use crate::model::{
-    Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, SignalSet, Symmetry,
-    Terms, Totals, Unit,
+    Derived, Description, ExperimentModel, Imposed, Instant, Load, Model, Signal, SignalCycle, SignalSet,
+    Symmetry, Terms, Totals, Unit,
 };
 use crate::modes::Mode;
 use crate::num::Real;
@@ -429,7 +429,7 @@ impl Model<4> for Bimorph {
     }
 }
 
-impl Motions<4> for Bimorph {
+impl ExperimentModel<4> for Bimorph {
     const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
 
     fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> Bimorph {

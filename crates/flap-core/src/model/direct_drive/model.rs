@@ -13,8 +13,8 @@ use crate::model::OverWings::{Each, Sum};
 use crate::model::readings::{charging, efficiency, grams_force, hinge_strain, lag_degrees};
 use crate::model::stroke_and_pitch as states;
 use crate::model::{
-    Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, SignalSet, Symmetry,
-    Terms, Totals, Unit,
+    Derived, Description, ExperimentModel, Imposed, Instant, Load, Model, Signal, SignalCycle, SignalSet,
+    Symmetry, Terms, Totals, Unit,
 };
 use crate::modes::Mode;
 use crate::num::Real;
@@ -321,7 +321,7 @@ impl Model<4> for DirectDrive {
     }
 }
 
-impl Motions<4> for DirectDrive {
+impl ExperimentModel<4> for DirectDrive {
     const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
 
     fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> DirectDrive {

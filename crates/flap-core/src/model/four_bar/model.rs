@@ -17,7 +17,7 @@ use crate::model::OverWings::{Each, Sum};
 use crate::model::readings::{charging, efficiency, grams_force, hinge_strain, lag_degrees};
 use crate::model::stroke_and_pitch as states;
 use crate::model::{
-    Derived, Description, Imposed, Instant, Load, Model, Motions, Signal, SignalCycle, Terms, Unit,
+    Derived, Description, ExperimentModel, Imposed, Instant, Load, Model, Signal, SignalCycle, Terms, Unit,
 };
 use crate::modes::Mode;
 use crate::num::{Lanes, Real};
@@ -331,7 +331,7 @@ impl Model<4> for FourBar {
     }
 }
 
-impl Motions<4> for FourBar {
+impl ExperimentModel<4> for FourBar {
     const FREE_SIGNALS: &'static [Signal] = &[Signals::SIGNALS.stroke, Signals::SIGNALS.pitch];
 
     fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> FourBar {

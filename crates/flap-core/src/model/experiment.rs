@@ -1,4 +1,4 @@
-//! Single motions of a model: chirps, sampled waveforms, impulses and imposed motions.
+//! Experiments on a model: chirps, sampled waveforms, impulses and imposed motions.
 
 use super::definition::{Instant, Model};
 use super::signal::Signal;
@@ -9,8 +9,8 @@ use crate::modes::Mode;
 /// An imposed motion at one time: the states, the derivatives of the states, and the inputs of the model.
 pub type Imposed<I, const N: usize> = ([f64; N], [f64; N], I);
 
-/// A model that computes single motions in addition to rows.
-pub trait Motions<const N: usize>: Model<N> {
+/// A model that computes experiments in addition to rows.
+pub trait ExperimentModel<const N: usize>: Model<N> {
     /// Signals whose frequencies describe a free motion. The first signal in the list is the signal that an impulse
     /// excites.
     const FREE_SIGNALS: &'static [Signal];
@@ -51,7 +51,7 @@ pub trait Motions<const N: usize>: Model<N> {
         (self.with_drive(|drive| drive.with_waveform(Waveform::Chirp)), c)
     }
 
-    /// Returns the model and the constants of a free motion. The third result is the state [`Motions::struck`].
+    /// Returns the model and the constants of a free motion. The third result is the state [`ExperimentModel::struck`].
     fn released(&self, c: &Self::Constants<f64>, stroke_rate: f64) -> (Self, Self::Constants<f64>, [f64; N]) {
         (self.with_drive(|_| Drive::SINE), Self::resting(c), Self::struck(c, stroke_rate))
     }
