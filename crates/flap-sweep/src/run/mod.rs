@@ -32,6 +32,7 @@ use std::time::Duration;
 
 use flap_core::num::Backend;
 
+mod added_columns;
 mod chunk;
 pub mod identity;
 mod points;
@@ -40,8 +41,9 @@ mod summary;
 mod workers;
 mod writer;
 
+pub use added_columns::add_columns;
 pub use chunk::{Chunk, chunk};
-pub use points::{Outcome, add_columns, alone, rows};
+pub use points::{Outcome, alone, rows};
 pub use summary::{Counts, InvalidPoint, Summary, Unsatisfied, Warnings};
 pub use workers::Run;
 pub(crate) use workers::Worker;

@@ -3,14 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use flap_core::num::Backend;
-use flap_core::simulate::{Change, Interrupt, Jobs, NoSlope, Point, PointRun, Row, Status};
-use flap_core::vehicle::standing;
+use flap_core::simulate::{Interrupt, Jobs, Point, PointRun, Row, Status};
 use serde::{Deserialize, Serialize};
 
+use super::added_columns::add_columns;
 use super::{Run, RunError, RunOptions, Worker};
-use crate::derivative::{Per, gap_code, is_least, moved, size};
-use crate::plan::gradient::Gradient;
 use crate::plan::{Admission, Plan};
 
 /// Result of running a point, or a design with a curve.
@@ -149,130 +146,4 @@ impl Jobs for Points<'_, '_> {
     fn interrupted(&self) -> bool {
         self.worker.is_cancelled()
     }
-}
-
-/// Relative change for derivatives of the measures of the plan, which need not be as small as for the model's
-/// measures.
-const OWN_SHARE: f64 = 1e-5;
-
-/// Adds the measures and derivatives of the plan to `row`, which the model has computed for `point`.
-///
-/// The last added value contains the reasons for missing derivatives, see [`gap_code`]. Returns false if the run was
-/// interrupted.
-pub fn add_columns(
-    plan: &Plan,
-    instructions: Backend,
-    point: &Point,
-    row: &mut Row,
-    interrupted: Interrupt<'_>,
-) -> bool {
-    plan.add_own_measures(&point.values, &mut row.measures);
-    let Some(gradient) = plan.gradient().filter(|_| !row.measures.is_empty()) else { return true };
-    let changes = gradient.with_respect_to.iter().map(|&parameter| {
-        let changed = |share| changed(plan, gradient.per, point, parameter, share);
-        let back = if is_least(plan.parameters(), &point.values, parameter) { 0.0 } else { -Change::SHARE };
-        Change { ahead: changed(Change::SHARE), behind: changed(back), size: Change::SHARE }
-    });
-    let changes: Vec<Change> = changes.collect();
-    let run = PointRun::new(instructions, plan.solver(), &point.values).until(interrupted);
-    let found = if let Some(body) = plan.body() {
-        body.gradient(&run, row, &changes)
-    } else {
-        let gradients = plan.simulator().gradients();
-        gradients.and_then(|gradients| gradients.gradient(&run, &row.state, &changes))
-    };
-    if interrupted() {
-        return false;
-    }
-    let slopes = match found {
-        Ok(found) => {
-            row.rhs_evals += found.rhs_evals;
-            found.slopes
-        }
-        Err(_) => vec![vec![Err(NoSlope::Lost); plan.rows().columns().len()]; changes.len()],
-    };
-    let derivatives = derivatives(plan, gradient, point, &row.measures, &slopes);
-    row.measures.extend(derivatives.iter().map(|derivative| derivative.unwrap_or(f64::NAN)));
-    row.measures.push(gap_code(derivatives.iter().filter_map(|derivative| derivative.err())));
-    true
-}
-
-/// Returns the size to which relative changes of a parameter refer; `None` if the size is unknown. A parameter with the
-/// value zero has no relative change.
-fn size_at(plan: &Plan, per: Per, point: &Point, parameter: usize) -> Option<f64> {
-    let value = standing(plan.parameters(), &point.values, parameter);
-    let has_shares = per == Per::Unit || value != 0.0;
-    size(plan.simulator(), &point.values, parameter).filter(|_| has_shares)
-}
-
-/// Returns the values of a point with one parameter increased by a fraction of its size.
-fn changed(plan: &Plan, per: Per, point: &Point, parameter: usize, share: f64) -> Vec<f64> {
-    let size = size_at(plan, per, point, parameter);
-    let shared = standing(plan.parameters(), &point.values, parameter);
-    plan.changed(point.index, parameter, |own| moved(if own.is_nan() { shared } else { own }, size, share))
-}
-
-/// Returns the derivatives in the order of their columns.
-fn derivatives(
-    plan: &Plan,
-    gradient: &Gradient,
-    point: &Point,
-    measures: &[f64],
-    slopes: &[Vec<Result<f64, NoSlope>>],
-) -> Vec<Result<f64, NoSlope>> {
-    let own_slopes = gradient.with_respect_to.iter().zip(slopes);
-    let own_slopes =
-        own_slopes.map(|(&parameter, slopes)| own(plan, gradient.per, point, parameter, measures, slopes));
-    let own_slopes: Vec<Vec<Result<f64, NoSlope>>> = own_slopes.collect();
-    let by = |parameter: usize| gradient.with_respect_to.iter().position(|other| *other == parameter);
-    let pairs = gradient.pairs().map(|(of, parameter)| {
-        let by = by(parameter).unwrap_or_default();
-        let slope = match of.checked_sub(slopes[by].len()) {
-            None => slopes[by][of],
-            Some(place) => own_slopes[by][place],
-        };
-        let size = size_at(plan, gradient.per, point, parameter).unwrap_or(f64::NAN);
-        slope.map(|slope| match gradient.per {
-            Per::Cent => 0.01 * slope * (standing(plan.parameters(), &point.values, parameter) / size),
-            Per::Unit => slope / size,
-        })
-    });
-    pairs.collect()
-}
-
-/// Returns the derivatives of the measures of the plan with respect to one parameter, from derivatives of the model's
-/// measures.
-fn own(
-    plan: &Plan,
-    per: Per,
-    point: &Point,
-    parameter: usize,
-    measures: &[f64],
-    slopes: &[Result<f64, NoSlope>],
-) -> Vec<Result<f64, NoSlope>> {
-    let count = slopes.len();
-    let trouble = slopes.iter().filter_map(|slope| slope.err()).min();
-    let moved = |share: f64| {
-        let values = changed(plan, per, point, parameter, share);
-        let slopes = slopes.iter().map(|slope| slope.unwrap_or(f64::NAN));
-        let mut moved: Vec<f64> =
-            measures.iter().zip(slopes).map(|(measure, slope)| slope.mul_add(share, *measure)).collect();
-        plan.add_own_measures(&values, &mut moved);
-        moved.split_off(count)
-    };
-    let back = if is_least(plan.parameters(), &point.values, parameter) { 0.0 } else { -OWN_SHARE };
-    let [ahead, behind] = [OWN_SHARE, back].map(moved);
-    let here = &measures[slopes.len()..];
-    let slopes = here.iter().zip(ahead.iter().zip(&behind)).map(|(here, (ahead, behind))| {
-        let slope = (ahead - behind) / (OWN_SHARE - back);
-        if here.is_nan() {
-            Err(NoSlope::Missing)
-        } else if slope.is_nan() {
-            // Missing if a measure that it depends on has no derivative.
-            Err(trouble.unwrap_or(NoSlope::Kink))
-        } else {
-            Ok(slope)
-        }
-    });
-    slopes.collect()
 }
