@@ -1,7 +1,7 @@
 //! Columns and their meanings.
 
 use flap_core::simulate;
-use flap_sweep::table::layout::split_unit;
+use flap_sweep::table::labels::split_unit;
 
 #[test]
 fn names_of_measures_end_in_their_units() {

@@ -1,7 +1,7 @@
 //! Initial states from Python: states at the start of a drive period.
 
 use flap_core::simulate::Simulator;
-use flap_sweep::table::layout::split_unit;
+use flap_sweep::table::labels::split_unit;
 use numpy::PyReadonlyArray2;
 use numpy::ndarray::ArrayView1;
 use pyo3::exceptions::{PyTypeError, PyValueError};

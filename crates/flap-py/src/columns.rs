@@ -3,7 +3,8 @@
 use std::io;
 
 use flap_sweep::run::{Sink, Summary, Unsatisfied};
-use flap_sweep::table::layout::{self, Cell, CellKind, Column};
+use flap_sweep::table::labels::split_unit;
+use flap_sweep::table::layout::{Cell, CellKind, Column};
 use numpy::PyArray1;
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict, PyList};
@@ -54,7 +55,7 @@ impl Data {
 
 /// Returns a column without a meaning. The end of the name determines the unit.
 pub(crate) fn named(name: &str, kind: CellKind) -> Column {
-    Column { name: name.to_owned(), unit: layout::split_unit(name).1.into(), kind, doc: String::new() }
+    Column { name: name.to_owned(), unit: split_unit(name).1.into(), kind, doc: String::new() }
 }
 
 impl Columns {

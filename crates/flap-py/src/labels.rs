@@ -4,7 +4,6 @@ use std::borrow::Cow;
 
 use flap_core::simulate;
 use flap_sweep::table::labels::{self, Direction, Label, Scale};
-use flap_sweep::table::layout;
 use pyo3::prelude::*;
 
 /// Return the name of a column in words, without the unit: `lift_mean_mn` gives "Lift, mean".
@@ -45,7 +44,7 @@ pub(crate) fn unit_of(name: &str) -> Cow<'static, str> {
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn split_unit(name: &str) -> (&str, &'static str) {
-    layout::split_unit(name)
+    labels::split_unit(name)
 }
 
 /// Return the better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither.

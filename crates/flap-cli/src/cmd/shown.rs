@@ -1,7 +1,7 @@
 //! Formats cells of result files: with prefixes of units for tables, with all digits for csv and json.
 
 use flap_sweep::table::labels;
-use flap_sweep::table::layout::split_unit;
+use flap_sweep::table::labels::split_unit;
 
 use crate::table::six_digits;
 

@@ -14,7 +14,7 @@ use crate::notation::text::count;
 use crate::plan::Output;
 use crate::plan::formula::OwnMeasure;
 use crate::plan::refine::{Error, Limit, Refine, not_refined};
-use crate::table::layout::split_unit;
+use crate::table::labels::split_unit;
 
 pub(super) const KEYS: [&str; 5] = ["measure", "error", "max_points", "along", "halvings"];
 

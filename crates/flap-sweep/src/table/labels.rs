@@ -1,4 +1,4 @@
-//! Labels of columns: names in words, printed units, and the preferred direction of a measure.
+//! Labels of columns: names in words, units, and the preferred direction of a measure.
 
 use std::borrow::Cow;
 use std::f64::consts::PI;
@@ -6,7 +6,6 @@ use std::f64::consts::PI;
 use flap_core::simulate::Simulator;
 use flap_core::vehicle::FORCES;
 
-use super::layout;
 use crate::derivative;
 
 /// Label of a column.
@@ -60,8 +59,52 @@ pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> Cow<'static, 
         let is_known = per == derivative::Per::Cent || of_model(by).is_some();
         is_known.then(|| derivative::unit(&unit_of(of, models), of_model(by).unwrap_or_default(), per))
     });
-    derivative
-        .map_or_else(|| of_model(column).unwrap_or_else(|| layout::split_unit(column).1).into(), Cow::from)
+    derivative.map_or_else(|| of_model(column).unwrap_or_else(|| split_unit(column).1).into(), Cow::from)
+}
+
+/// Endings of names, each with its unit in words. If two entries match a name, the longer entry is first in the list.
+const ENDINGS: [(&str, &str); 30] = [
+    ("_gf_per_w", "gf/W"),
+    ("_deg_per_v", "deg/V"),
+    ("_v_per_um", "V/um"),
+    ("_rad_s", "rad/s"),
+    ("_m_s", "m/s"),
+    ("_1_s", "1/s"),
+    ("_mgf", "mgf"),
+    ("_deg", "deg"),
+    ("_rad", "rad"),
+    ("_khz", "kHz"),
+    ("_hz", "Hz"),
+    ("_gf", "gf"),
+    ("_mn", "mN"),
+    ("_un", "uN"),
+    ("_unm", "uN*m"),
+    ("_mw", "mW"),
+    ("_uw", "uW"),
+    ("_ma", "mA"),
+    ("_ua", "uA"),
+    ("_mm", "mm"),
+    ("_um", "um"),
+    ("_mg", "mg"),
+    ("_kg", "kg"),
+    ("_ms", "ms"),
+    ("_us", "us"),
+    ("_mj", "mJ"),
+    ("_uj", "uJ"),
+    ("_v", "V"),
+    ("_s", "s"),
+    ("_m", "m"),
+];
+
+/// Returns the name of a column without the unit, and the unit. The unit is empty if the name has no unit.
+///
+/// ```
+/// assert_eq!(flap_sweep::table::labels::split_unit("lift_mean_mn"), ("lift_mean", "mN"));
+/// assert_eq!(flap_sweep::table::labels::split_unit("status"), ("status", ""));
+/// ```
+pub fn split_unit(name: &str) -> (&str, &'static str) {
+    let split = ENDINGS.iter().find_map(|(ending, unit)| Some((name.strip_suffix(ending)?, *unit)));
+    split.unwrap_or((name, ""))
 }
 
 /// Returns the unit of the parameter or measure with this name in one of the models.
@@ -134,7 +177,7 @@ fn qualifier(word: &str) -> Option<&'static str> {
 
 /// Returns a column's name in words, without its unit.
 fn words(name: &str, unit: &str) -> String {
-    let (shortened, known) = layout::split_unit(name);
+    let (shortened, known) = split_unit(name);
     // A parameter such as `air_density` has a unit that its name does not contain.
     let is_shortened = !known.is_empty() && (unit.is_empty() || unit == known);
     let stem = if is_shortened { shortened } else { name };

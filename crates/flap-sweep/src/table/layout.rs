@@ -6,6 +6,7 @@ use std::sync::LazyLock;
 use flap_core::parameter::{self, Parameter};
 use flap_core::simulate::{NoSlope, Point, Row};
 
+use super::labels::split_unit;
 use crate::derivative::{self, column_name, meaning, reasons_of};
 use crate::notation::{expression, text};
 use crate::plan::Plan;
@@ -248,51 +249,6 @@ impl<'p> Entry<'p> {
     }
 }
 
-/// Endings of names, each with its unit in words. If two entries match a name, the longer entry is first in the list.
-const ENDINGS: [(&str, &str); 30] = [
-    ("_gf_per_w", "gf/W"),
-    ("_deg_per_v", "deg/V"),
-    ("_v_per_um", "V/um"),
-    ("_rad_s", "rad/s"),
-    ("_m_s", "m/s"),
-    ("_1_s", "1/s"),
-    ("_mgf", "mgf"),
-    ("_deg", "deg"),
-    ("_rad", "rad"),
-    ("_khz", "kHz"),
-    ("_hz", "Hz"),
-    ("_gf", "gf"),
-    ("_mn", "mN"),
-    ("_un", "uN"),
-    ("_unm", "uN*m"),
-    ("_mw", "mW"),
-    ("_uw", "uW"),
-    ("_ma", "mA"),
-    ("_ua", "uA"),
-    ("_mm", "mm"),
-    ("_um", "um"),
-    ("_mg", "mg"),
-    ("_kg", "kg"),
-    ("_ms", "ms"),
-    ("_us", "us"),
-    ("_mj", "mJ"),
-    ("_uj", "uJ"),
-    ("_v", "V"),
-    ("_s", "s"),
-    ("_m", "m"),
-];
-
-/// Returns the name of a column without the unit, and the unit. The unit is empty if the name has no unit.
-///
-/// ```
-/// assert_eq!(flap_sweep::table::layout::split_unit("lift_mean_mn"), ("lift_mean", "mN"));
-/// assert_eq!(flap_sweep::table::layout::split_unit("status"), ("status", ""));
-/// ```
-pub fn split_unit(name: &str) -> (&str, &'static str) {
-    let split = ENDINGS.iter().find_map(|(ending, unit)| Some((name.strip_suffix(ending)?, *unit)));
-    split.unwrap_or((name, ""))
-}
-
 /// Description of a column of a result file, for tables with types and units.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
@@ -381,6 +337,14 @@ pub(crate) const POINT: Fixed = Fixed {
     cell: |point, _| Cell::Whole(point.index),
 };
 
+/// First column of curves, in place of `point`.
+pub(crate) const CURVE: Fixed = Fixed {
+    name: "curve",
+    kind: CellKind::Whole,
+    doc: "index of the design in the grid, counted from 0",
+    cell: |point, _| Cell::Whole(point.index),
+};
+
 /// Column before the measures.
 pub(crate) const STATUS: Fixed = Fixed {
     name: "status",
@@ -444,11 +408,3 @@ pub(crate) const RUN: [Fixed; 7] = [
         cell: |_, row| Cell::Whole(row.rhs_evals),
     },
 ];
-
-/// First column of curves, in place of `point`.
-pub(crate) const CURVE: Fixed = Fixed {
-    name: "curve",
-    kind: CellKind::Whole,
-    doc: "index of the design in the grid, counted from 0",
-    cell: |point, _| Cell::Whole(point.index),
-};

@@ -3,7 +3,8 @@
 use flap_core::simulate::{Simulator, SolverSettings, Status};
 use flap_sweep::notation::text;
 use flap_sweep::resonance::measures;
-use flap_sweep::table::layout::{fixed_columns, special_columns, split_unit};
+use flap_sweep::table::labels::split_unit;
+use flap_sweep::table::layout::{fixed_columns, special_columns};
 
 use super::composed;
 use super::entry::{Entry, of_column, of_measure, of_parameter};
