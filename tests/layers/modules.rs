@@ -23,7 +23,6 @@ const CRATES: &[(&str, &[&str])] = &[
             "model",
             "measure",
             "simulate",
-            "experiments",
             "vehicle",
             "lib",
         ],

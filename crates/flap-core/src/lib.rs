@@ -10,14 +10,12 @@
 //! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`springs`], [`body`], [`aero`], [`modes`]: components that several models use
 //! - [`model`]: the published models: parameters → constants → equations of motion → signals
 //! - [`measure`]: measures of a motion, for any model
-//! - [`simulate`]: computation of rows from design points
-//! - `experiments`: chirps, impulses and imposed motions of a model
+//! - [`simulate`]: computation of rows from design points; chirps, impulses and imposed motions
 //! - [`vehicle`]: sums of the forces and torques of several wings
 
 pub mod aero;
 pub mod body;
 pub mod drive;
-mod experiments;
 pub mod linkage;
 pub mod measure;
 pub mod model;

@@ -4,6 +4,7 @@
 //! [`Motions`] and [`Experiments`]. [`Runner`] implements these traits for a [`Model`](crate::model::Model). [`all`]
 //! lists the models of this crate.
 
+mod experiments;
 mod gradient;
 mod jobs;
 mod lanes;
@@ -35,9 +36,6 @@ pub use runner::Runner;
 pub use settings::{Setting, SettingKind, SolverSettings};
 pub use simulator::{Experiments, Gradients, Motions, Rows, Simulator, run_list};
 pub use single::PointRun;
-
-pub(crate) use sampler::{Sampler, columns as trajectory_columns, sampled, shown};
-pub(crate) use single::on_scalars;
 
 pub use crate::ode::{Interrupt, never};
 

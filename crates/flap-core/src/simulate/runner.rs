@@ -140,7 +140,7 @@ use crate::parameter::{Parameter, Preset};
 /// assert!((row.floquet_max - (-0.2_f64).exp()).abs() < 1e-4);
 /// ```
 pub struct Runner<M, const N: usize> {
-    pub(crate) model: M,
+    pub(super) model: M,
     columns: OnceLock<Vec<Column>>,
     experiments: fn(&Self) -> Option<&dyn Experiments>,
 }

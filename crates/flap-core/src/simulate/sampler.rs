@@ -11,7 +11,7 @@ use crate::ode::step::Attempt;
 use crate::ode::{Interrupt, Start};
 
 /// Follows the run from `start` for `spans` spans, with equidistant samples in each.
-pub(crate) fn sampled<M, R, const N: usize>(
+pub(super) fn sampled<M, R, const N: usize>(
     model: &M,
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
@@ -46,7 +46,7 @@ where
 }
 
 /// Sampler of a motion, with equidistant samples in each cycle.
-pub(crate) struct Sampler {
+pub(super) struct Sampler {
     samples_per_cycle: u32,
     /// Time at the beginning of the current cycle, and the cycle's length (s).
     began: f64,
@@ -60,19 +60,19 @@ pub(crate) struct Sampler {
 
 impl Sampler {
     /// Returns a new sampler. It takes no samples if `samples_per_cycle` is 0.
-    pub(crate) fn new(samples_per_cycle: u32) -> Sampler {
+    pub(super) fn new(samples_per_cycle: u32) -> Sampler {
         Sampler { samples_per_cycle, began: 0.0, span: 0.0, next: 0, rows: Vec::new(), last: None }
     }
 
     /// Begins a cycle of `span` seconds.
-    pub(crate) fn begin_cycle(&mut self, span: f64) {
+    pub(super) fn begin_cycle(&mut self, span: f64) {
         self.began += self.span;
         self.span = span;
         self.next = 0;
     }
 
     /// Takes the samples within an accepted step.
-    pub(crate) fn step<M, R, const N: usize>(
+    pub(super) fn step<M, R, const N: usize>(
         &mut self,
         model: &M,
         c: &M::Constants<R>,
@@ -101,14 +101,14 @@ impl Sampler {
     }
 
     /// Returns the samples, including the end of the last cycle.
-    pub(crate) fn finish<M: Model<N>, const N: usize>(mut self) -> Trajectory {
+    pub(super) fn finish<M: Model<N>, const N: usize>(mut self) -> Trajectory {
         self.rows.extend(self.last);
         Trajectory { columns: columns::<M, N>(), rows: self.rows }
     }
 }
 
 /// Returns the names of the columns of a trajectory: time, states, signals.
-pub(crate) fn columns<M: Model<N>, const N: usize>() -> Vec<String> {
+pub(super) fn columns<M: Model<N>, const N: usize>() -> Vec<String> {
     let mut columns = vec!["time_s".to_owned()];
     columns.extend(M::STATES.iter().map(|&name| name.to_owned()));
     columns.extend(M::Signals::TABLE.iter().filter(|signal| signal.is_shown()).map(Signal::column));
@@ -116,7 +116,7 @@ pub(crate) fn columns<M: Model<N>, const N: usize>() -> Vec<String> {
 }
 
 /// Returns the descriptions of the columns of a trajectory, in their order.
-pub(crate) fn meanings<M: Model<N>, const N: usize>() -> Vec<String> {
+pub(super) fn meanings<M: Model<N>, const N: usize>() -> Vec<String> {
     let mut meanings = vec!["time since the beginning of the motion".to_owned()];
     meanings.extend(M::STATES.iter().map(|name| format!("state {name} of the equations of motion")));
     let shown = M::Signals::TABLE.iter().filter(|signal| signal.is_shown());
@@ -147,7 +147,7 @@ where
 }
 
 /// Returns the signals with columns, in the units of the columns.
-pub(crate) fn shown<S: SignalSet>(signals: &S::Of<f64>) -> impl Iterator<Item = f64> {
+pub(super) fn shown<S: SignalSet>(signals: &S::Of<f64>) -> impl Iterator<Item = f64> {
     let shown = S::each(signals).filter(|(signal, _)| signal.is_shown());
     shown.map(|(signal, value)| value * signal.unit.factor)
 }

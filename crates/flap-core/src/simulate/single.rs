@@ -56,7 +56,7 @@ macro_rules! on_scalars {
         }
     };
 }
-pub(crate) use on_scalars;
+pub(super) use on_scalars;
 
 /// Returns the row of a point from the state `from`, or from rest. If the run is interrupted, the row is meaningless.
 pub(super) fn row<M: Model<N>, R: Scalar, const N: usize>(

@@ -6,6 +6,13 @@
 
 use core::ops::ControlFlow;
 
+use super::request::{
+    ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, RequestError, Trajectory, Unfinished,
+};
+use super::runner::Runner;
+use super::sampler::{Sampler, columns as trajectory_columns, sampled, shown};
+use super::simulator::{Experiments, Simulator};
+use super::single::{PointRun, on_scalars};
 use crate::drive::Samples;
 use crate::measure::cycle::{SignalObserver, Sums, finish};
 use crate::model::{ExperimentModel, Measure, Model, Signal, SignalSet};
@@ -14,10 +21,6 @@ use crate::num::{PerLane, Scalar};
 use crate::ode::Start;
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve_until;
-use crate::simulate::{
-    ChirpRequest, ChirpResponse, Experiments, ImposedMotion, ImpulseRequest, PointRun, RequestError, Runner,
-    Sampler, Simulator, Trajectory, Unfinished, on_scalars, sampled, shown, trajectory_columns,
-};
 
 impl<M: ExperimentModel<N>, const N: usize> Experiments for Runner<M, N> {
     fn chirp(&self, run: &PointRun<'_>, request: &ChirpRequest) -> Result<ChirpResponse, Unfinished> {
