@@ -169,6 +169,7 @@ const linesDrawing = (view, rows, scene, xOf, yOf) => {
     for (const [i, row] of members.entries()) {
       if (y[i] !== null || !statusColumn?.words) continue;
       const status = cellText(statusColumn, row);
+      if (status === "periodic") continue;
       scene.gaps.push({ x: xOf(row), status, row, name, ...statusMark(status, dark) });
     }
     scene.lines.push({
