@@ -64,6 +64,20 @@ test("arrow keys leave out gaps and lines that are switched off", () => {
   assert.deepEqual(go(-1, 0), ["a", 1, 10]);
 });
 
+test("arrow keys go to the nearest x of a line with other values", () => {
+  const long = line("a", { x: [0, 1, 2, 3, 4, 5], y: [1, 2, 3, 4, 5, 6] });
+  const lines = [long, line("b"), line("c", { x: [3, 4, 6], y: [1, 2, 3] })];
+  const above = (index, up) =>
+    nextMark({ scene: { lines }, hidden: new Set(), mark: { key: "a", index, x: long.x[index] } }, 0, up).x;
+  assert.deepEqual([above(4, 1), above(5, 1), above(4, -1)], [3, 3, 4]);
+});
+
+test("arrow keys pass several values at one x", () => {
+  const lines = [line("a", { x: [1, 1, 2], y: [1, 2, 3] })];
+  const chart = { scene: { lines }, hidden: new Set(), mark: { key: "a", index: 1, x: 1 } };
+  assert.equal(nextMark(chart, 1, 0).x, 2);
+});
+
 test("arrow keys go from cell to cell with a row, and stop at the edge", () => {
   const cells = { edgesX: [0, 1, 2, 3], edgesY: [0, 1], i: [0, 2], j: [0, 0], rows: [7, 8], colors: [0, 0] };
   const chart = { scene: { lines: [], cells }, hidden: new Set(), mark: null };

@@ -87,7 +87,11 @@ export const nextMark = ({ scene, hidden, mark }, right, up) => {
   const line = lines[place < 0 ? 0 : (place + up + lines.length) % lines.length];
   const places = line.x.map((_, i) => i).filter((i) => hasValue(line, i));
   if (places.length === 0) return null;
-  const before = place < 0 ? -1 : places.findIndex((i) => i >= Number(mark?.index));
+  if (!mark || place < 0) return lineMark(line, places[0]);
+  // Lines may have different values of x, and a line may have several values at one x.
+  const same = line.key === mark.key ? places.indexOf(Number(mark.index)) : -1;
+  const x = places.map((i) => line.x[i]);
+  const before = same < 0 ? nearestPlace(x, mark.x) : same;
   return lineMark(line, places[Math.min(Math.max(before + right, 0), places.length - 1)]);
 };
 
