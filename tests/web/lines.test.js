@@ -102,8 +102,9 @@ test("a mark is at the nearest value after its line has changed", () => {
 test("rows within a part of the plane", () => {
   const points = { x: [1, 2, 3], y: [1, 2, 3], rows: [4, 5, 6] };
   const cells = { edgesX: [0, 2, 4], edgesY: [0, 2], i: [0, 1], j: [0, 0], rows: [8, 9] };
-  assert.deepEqual(rowsWithin({ lines: [line("a")], points }, [1.5, 3], [0, 3]), [5, 6, 12]);
-  assert.deepEqual(rowsWithin({ lines: [], cells }, [2.5, 4], [0, 2]), [9]);
+  assert.deepEqual(rowsWithin({ lines: [line("a")], points }, new Set(), [1.5, 3], [0, 3]), [5, 6, 12]);
+  assert.deepEqual(rowsWithin({ lines: [line("a")], points }, new Set(["a"]), [1.5, 3], [0, 3]), [5, 6]);
+  assert.deepEqual(rowsWithin({ lines: [], cells }, new Set(), [2.5, 4], [0, 2]), [9]);
 });
 
 /** A plot of 100 by 50 pixels, in which x is the pixel. */

@@ -314,7 +314,7 @@ export class Chart {
     const y = [plot.posToVal(top + height, "y"), plot.posToVal(top, "y")];
     plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
     this.wasDragged = true;
-    if (this.drag === "select") this.options.onSelect?.(rowsWithin(this.scene, x, y));
+    if (this.drag === "select") this.options.onSelect?.(rowsWithin(this.scene, this.hidden, x, y));
     else this.setView({ x: width < LEAST_DRAG ? this.view.x : x, y: height < LEAST_DRAG ? this.view.y : y }, true);
   }
 

@@ -100,13 +100,14 @@ export const isSameMark = (/** @type {Mark | null} */ a, /** @type {Mark | null}
   a?.key === b?.key && a?.index === b?.index && a?.y === b?.y && a?.x === b?.x;
 
 /**
- * The rows of all points, cells and values of lines within a part of the plane.
+ * The rows of all points, cells and values of lines within a part of the plane. Lines that are switched off do not count.
  *
  * @param {Scene} scene
+ * @param {Set<string>} hidden
  * @param {Range} x
  * @param {Range} y
  */
-export const rowsWithin = ({ points, cells, lines }, [lowX, highX], [lowY, highY]) => {
+export const rowsWithin = ({ points, cells, lines }, hidden, [lowX, highX], [lowY, highY]) => {
   /** @type {any[]} */
   const found = [];
   /**
@@ -122,6 +123,6 @@ export const rowsWithin = ({ points, cells, lines }, [lowX, highX], [lowY, highY
   };
   if (points) collect(points.rows, (at) => ({ x: points.x[at], y: points.y[at] }));
   if (cells) collect(cells.rows, (at) => cellMiddle(cells, at));
-  for (const { x, y, rows } of lines) collect(rows ?? [], (at) => ({ x: x[at], y: y[at] }));
+  for (const { x, y, rows } of reachableLines(lines, hidden)) collect(rows ?? [], (at) => ({ x: x[at], y: y[at] }));
   return found;
 };

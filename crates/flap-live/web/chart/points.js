@@ -3,6 +3,7 @@
 
 import { unpackedColour } from "../shared/colours.js";
 import { styleColour } from "../shared/theme.js";
+import { reachableLines } from "./lines.js";
 
 /** @import { CellSet, Chart, PointSet, UPlot } from "../types.d.ts" */
 
@@ -89,7 +90,7 @@ export const paintCells = (/** @type {UPlot} */ plot, /** @type {CellSet} */ cel
 
 /** Paints rings around points and values of lines, and frames around cells, of the selected rows. */
 export const paintSelected = (/** @type {Chart} */ chart) => {
-  const { plot, scene, placed, selectedRows } = chart;
+  const { plot, scene, hidden, placed, selectedRows } = chart;
   const { ctx } = plot;
   const { points, cells, lines } = scene;
   const ring = (/** @type {number} */ x, /** @type {number} */ y) => {
@@ -120,7 +121,7 @@ export const paintSelected = (/** @type {Chart} */ chart) => {
   }
   const toX = toPixels(plot, "x");
   const toY = toPixels(plot, "y");
-  for (const { x, y, rows } of lines) {
+  for (const { x, y, rows } of reachableLines(lines, hidden)) {
     paintEach(rows ?? [], (at) => {
       if (y[at] !== null) ring(toX(x[at]), toY(Number(y[at])));
     });
