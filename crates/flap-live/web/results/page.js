@@ -30,8 +30,8 @@ const drawView = (/** @type {number} */ i) => {
   return { without, problem };
 };
 
-/** Draws the rows that pass slices and filters. `isStep` is true for a change that the back button undoes. */
-const refresh = (/** @type {boolean} */ isStep) => {
+/** Draws the rows that pass slices and filters. */
+const redraw = () => {
   shown.rows = visibleRows();
   const parts = [`${shown.rows.length} of ${results.rows} rows shown`];
   if (results.of > results.rows) parts.push(`the file has ${results.of}: every ${results.stride}th is in this page`);
@@ -44,18 +44,23 @@ const refresh = (/** @type {boolean} */ isStep) => {
   byId("status").textContent = [...new Set(parts)].join(" · ");
   showTable();
   showTip();
+};
+
+/** Draws the page, and saves its state. `isStep` is true for a change that the back button undoes. */
+const refresh = (/** @type {boolean} */ isStep) => {
+  redraw();
   saveShown(isStep);
 };
 
 let isWaiting = false;
-/** Draws in the next frame, once for all changes before it. */
+/** Draws in the next frame, once for all changes before it. The state is saved when the change has ended. */
 const refreshSoon = () => {
   if (isWaiting) return;
   isWaiting = true;
   requestAnimationFrame(() => {
     isWaiting = false;
     const begun = performance.now();
-    refresh(false);
+    redraw();
     performance.measure("flap-filter-to-picture", { start: begun, end: performance.now() });
   });
 };
