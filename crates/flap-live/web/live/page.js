@@ -85,6 +85,8 @@ const restore = () => {
   showAxisControls();
   showPins();
   update(true);
+  // A foreign address may differ from the address of its state: refine() would add a step.
+  saveState(false);
 };
 
 const showHeading = () => {
