@@ -6,7 +6,7 @@ import { isFiniteNumber, labelWithUnit, roundedNumber } from "../shared/format.j
 import { answerValue, MAIN_MEASURES, presentAnswer } from "./design-numbers.js";
 import { hasMeasure, hasParameter, measureNamed, parameterNamed } from "./opened.js";
 import { panelEvents, showPanel } from "./panel.js";
-import { request } from "./server.js";
+import { request, ServerError } from "./server.js";
 import { saveState, state, valueIn, valueText } from "./state.js";
 
 /** @import { Design, LiveState, PointAnswer } from "../types.d.ts" */
@@ -40,8 +40,10 @@ const requestPin = async (/** @type {Pin} */ { name, design }) => {
     if (!answer) return;
     answers.set(key, answer);
     showPins();
-  } catch {
-    answers.set(key, null);
+  } catch (error) {
+    // After a lost connection, the numbers are requested again.
+    const isLost = error instanceof ServerError && error.status === 0;
+    if (!isLost) answers.set(key, null);
   }
 };
 
