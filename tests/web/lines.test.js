@@ -109,12 +109,16 @@ test("rows within a part of the plane", () => {
 
 /** A plot of 100 by 50 pixels, in which x is the pixel. */
 const gaps = [
-  { x: 10, status: "unsettled", name: "one", row: 1 },
-  { x: 10.2, status: "unsettled", name: "two", row: 2 },
-  { x: 10, status: "step_limit", name: "three", row: 3 },
-  { x: 500, status: "unsettled", name: "four", row: 4 },
+  { group: "a", x: 10, status: "unsettled", name: "one", row: 1 },
+  { group: "b", x: 10.2, status: "unsettled", name: "two", row: 2 },
+  { group: "b", x: 10, status: "step_limit", name: "three", row: 3 },
+  { group: "b", x: 500, status: "unsettled", name: "four", row: 4 },
 ];
-const chart = { plot: { over: { clientWidth: 100, clientHeight: 50 }, valToPos: (x) => x }, scene: { gaps } };
+const chart = {
+  plot: { over: { clientWidth: 100, clientHeight: 50 }, valToPos: (x) => x },
+  scene: { gaps },
+  hidden: new Set(),
+};
 
 test("gaps are marks in rows by status, one at each pixel", () => {
   const placed = placedGaps(chart).map(({ gap, left, row }) => [gap.name, left, row]);
@@ -130,4 +134,17 @@ test("the pointer at a gap finds all gaps at its x", () => {
   assert.deepEqual([found.row, found.gaps.map(({ name }) => name)], [3, ["one", "three"]]);
   assert.equal(gapAt(chart, 30, 50 - gapHeight(0)), null);
   assert.equal(gapAt(chart, 10, 10), null);
+});
+
+test("gaps of a line that is switched off have no marks", () => {
+  const switched = { ...chart, hidden: new Set(["a"]) };
+  const placed = placedGaps(switched).map(({ gap, row }) => [gap.name, row]);
+  assert.deepEqual(placed, [
+    ["two", 0],
+    ["three", 1],
+  ]);
+  assert.deepEqual(
+    gapAt(switched, 10, 50 - gapHeight(1)).gaps.map(({ name }) => name),
+    ["three"],
+  );
 });

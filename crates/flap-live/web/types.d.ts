@@ -38,8 +38,9 @@ export interface Line {
   marks?: boolean;
 }
 
-/** A value of x without a value of y, with the status of its row. */
+/** A value of x without a value of y, with the group of its line and the status of its row. */
 export interface Gap {
+  group: string;
   x: number;
   status: string;
   name: string;

@@ -12,19 +12,25 @@ const REACH = 7;
 /** Height in pixels of a row of marks above the bottom. */
 export const gapHeight = (/** @type {number} */ row) => FOOT + row * ROW_HEIGHT;
 
+/** The gaps of lines that are not switched off. */
+const shownGaps = (/** @type {Pick<Chart, "scene" | "hidden">} */ { scene, hidden }) =>
+  (scene.gaps ?? []).filter(({ group }) => !hidden.has(group));
+
 /** The statuses of gaps, one for each row of marks, from the bottom upwards. */
 export const gapStatuses = (/** @type {Gap[]} */ gaps) => [...new Set(gaps.map(({ status }) => status))];
 
 /**
  * The marks to paint, with pixels from the left and the row. Marks at the same pixel are painted once.
  *
- * @param {Pick<Chart, "plot" | "scene">} chart
+ * @param {Pick<Chart, "plot" | "scene" | "hidden">} chart
  */
-export const placedGaps = ({ plot, scene }) => {
-  const statuses = gapStatuses(scene.gaps ?? []);
+export const placedGaps = (chart) => {
+  const { plot } = chart;
+  const gaps = shownGaps(chart);
+  const statuses = gapStatuses(gaps);
   const width = plot.over.clientWidth;
   const placed = new Map();
-  for (const gap of scene.gaps ?? []) {
+  for (const gap of gaps) {
     const left = plot.valToPos(gap.x, "x");
     const row = statuses.indexOf(gap.status);
     const key = `${row} ${Math.round(left)}`;
@@ -36,13 +42,14 @@ export const placedGaps = ({ plot, scene }) => {
 /**
  * The mark of the gaps under the pointer; null if the pointer is not at such a mark.
  *
- * @param {Pick<Chart, "plot" | "scene">} chart
+ * @param {Pick<Chart, "plot" | "scene" | "hidden">} chart
  * @param {number} left
  * @param {number} top
  * @returns {Mark | null}
  */
-export const gapAt = ({ plot, scene }, left, top) => {
-  const gaps = scene.gaps ?? [];
+export const gapAt = (chart, left, top) => {
+  const { plot } = chart;
+  const gaps = shownGaps(chart);
   const status = gapStatuses(gaps)[Math.floor((plot.over.clientHeight - top) / ROW_HEIGHT)];
   let nearest = null;
   let least = REACH;

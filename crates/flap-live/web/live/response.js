@@ -59,7 +59,7 @@ export const responseLines = ({ columns, rows, states }, { x, step, factor, y, b
     line.x.push(at);
     line.y.push(isFiniteNumber(cells[yPlace]) ? cells[yPlace] : null);
     line.rows.push(row);
-    if (row.status !== "periodic") gaps.push({ x: at, status: row.status, name: line.name, row });
+    if (row.status !== "periodic") gaps.push({ group: line.key, x: at, status: row.status, name: line.name, row });
   }
   const list = [...lines.values()];
   for (const line of list) {

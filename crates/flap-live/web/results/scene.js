@@ -164,17 +164,18 @@ const linesDrawing = (view, rows, scene, xOf, yOf) => {
   for (const group of kept) {
     const members = group.rows.sort((a, b) => xOf(a) - xOf(b));
     const isUnstable = branchColumn?.words?.[group.branch] === "unstable";
+    const legendGroup = String(branch ? group.branch : group.value);
     const name = by ? nameOf(by, group.value) : branch ? nameOf(branch, group.branch) : "";
     const y = members.map((row) => (Number.isFinite(yOf(row)) ? yOf(row) : null));
     for (const [i, row] of members.entries()) {
       if (y[i] !== null || !statusColumn?.words) continue;
       const status = cellText(statusColumn, row);
       if (status === "periodic") continue;
-      scene.gaps.push({ x: xOf(row), status, row, name, ...statusMark(status, dark) });
+      scene.gaps.push({ group: legendGroup, x: xOf(row), status, row, name, ...statusMark(status, dark) });
     }
     scene.lines.push({
       key: group.key,
-      group: String(branch ? group.branch : group.value),
+      group: legendGroup,
       name,
       color: branch
         ? lineColour(group.branch, branch.words?.length ?? 1, dark)
