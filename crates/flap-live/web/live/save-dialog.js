@@ -45,6 +45,7 @@ export const startSaving = () => {
     if (saved.text) download(saved.name, saved.text);
   };
   byId("copy").onclick = async () => {
+    if (!saved.text) return;
     await navigator.clipboard.writeText(saved.text);
     byId("copy").textContent = "Copied";
     setTimeout(() => {
