@@ -208,7 +208,7 @@ const paintFromAbove = (now, stroke, wing) => {
   pen.lineWidth = 1.5;
   pen.stroke();
   drawLine(pen, root, [root[0] + span * scale * alongX, root[1] + span * scale * alongY], "--ink", 2.5);
-  setCaption("above-caption", `from above · stroke ${now.stroke_deg.toFixed(0)}°`);
+  setCaption("above-caption", `from above · stroke ${Math.round(now.stroke_deg)}°`);
 };
 
 /**
@@ -236,7 +236,7 @@ const paintFromTip = (now, signals) => {
   const middle = [(x + endX) / 2, (y + endY) / 2];
   drawArrow(pen, middle, [0, -now.lift_mn * unit], LIFT_COLOUR);
   if (signals.drag_mn) drawArrow(pen, middle, [now.drag_mn * unit * dragSign(signals), 0], DRAG_COLOUR);
-  setCaption("tip-caption", `from the tip · pitch ${now.pitch_deg.toFixed(0)}°`);
+  setCaption("tip-caption", `from the tip · pitch ${Math.round(now.pitch_deg)}°`);
 };
 
 const drawFrame = (/** @type {number} */ time) => {
