@@ -5,7 +5,7 @@ import { test } from "node:test";
 import { legendHeight, pictureEntries, placedEntries } from "../../crates/flap-live/web/chart/legend.js";
 import { svgPicture } from "../../crates/flap-live/web/chart/svg.js";
 import { dragSign, pitchSign, valuesAt } from "../../crates/flap-live/web/live/kinematics.js";
-import { sliderPlace, sliderValue } from "../../crates/flap-live/web/live/slider.js";
+import { STEPS, sliderPlace, sliderStep, sliderValue } from "../../crates/flap-live/web/live/slider.js";
 import { symbolParts } from "../../crates/flap-live/web/live/symbol.js";
 import { wingOutline, wingShape } from "../../crates/flap-live/web/live/wing-outline.js";
 import { lineColour, packedColour, unpackedColour, viridis } from "../../crates/flap-live/web/shared/colours.js";
@@ -200,6 +200,21 @@ test("sliders are linear, logarithmic or whole", () => {
   assert.equal(sliderValue(log, 500), 10);
   assert.equal(sliderValue({ ...linear, whole: true }, 333), 13);
   assert.equal(sliderValue(linear, 333.33333), 13.3333);
+});
+
+test("a step of a slider of whole numbers is one number, and the last number is a place of the slider", () => {
+  for (const high of [2, 8, 20, 64]) {
+    const scale = { low: 1, high, log: false, whole: true };
+    const step = sliderStep(scale);
+    const places = Array.from({ length: Math.floor(STEPS / step) + 1 }, (_, i) => i * step);
+    assert.deepEqual(
+      places.map((place) => sliderValue(scale, place)),
+      Array.from({ length: high }, (_, i) => i + 1),
+    );
+    // The browser moves a rounded place to the nearest step.
+    const stepped = Math.round(Math.round(sliderPlace(scale, 2)) / step) * step;
+    assert.equal(sliderValue(scale, stepped), 2);
+  }
 });
 
 test("signals between two samples, and the signs of pitch and drag", () => {

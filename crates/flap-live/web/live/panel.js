@@ -6,7 +6,7 @@ import { isFiniteNumber, roundedNumber } from "../shared/format.js";
 import { inSI, splitNumber } from "../shared/typed-number.js";
 import { setMessage } from "./banner.js";
 import { opened, parameterNamed } from "./opened.js";
-import { STEPS, sliderPlace, sliderValue } from "./slider.js";
+import { STEPS, sliderPlace, sliderStep, sliderValue } from "./slider.js";
 import { setParameter, state, valueIn, valueText } from "./state.js";
 import { symbolElement } from "./symbol.js";
 
@@ -92,7 +92,7 @@ const inputsOf = (/** @type {Parameter} */ parameter) => {
     return { slider: null, field, inputs: element("div", { class: "inputs" }, field) };
   }
   const disabled = kind === "derived";
-  const range = { type: "range", min: "0", max: String(STEPS), step: "1" };
+  const range = { type: "range", min: "0", max: String(STEPS), step: String(sliderStep(parameter)) };
   const slider = element("input", { ...range, "aria-label": `${label}, slider`, disabled });
   const placeholder = kind === "following" ? unsetText(parameter) : "";
   const field = element("input", { id, inputmode: "decimal", disabled, placeholder });

@@ -17,6 +17,10 @@ export const STEPS = 1000;
 export const sliderPlace = ({ low, high, log }, value) =>
   STEPS * (log ? Math.log(value / low) / Math.log(high / low) : (value - low) / (high - low));
 
+/** The distance of neighbouring places of a slider. For whole numbers it is rounded down, so that the last place remains. */
+export const sliderStep = (/** @type {SliderScale} */ { low, high, whole }) =>
+  whole ? Math.floor((1e6 * STEPS) / (high - low)) / 1e6 : 1;
+
 /**
  * The value at a place of a slider, to six digits.
  *
