@@ -57,4 +57,12 @@ test("lists hold SI values, and texts with units", () => {
   assert.deepEqual(typedList("100, 0.15 kV; 200 -3", 1), [100, "0.15 kV", 200, -3]);
   assert.deepEqual(typedList("1 2", 1000), [0.001, 0.002]);
   assert.deepEqual(typedList(" ", 1), []);
+  assert.deepEqual(typedList("−5, −3", 1), [-5, -3]);
+  assert.deepEqual(typedList("much", 1), ["much"]);
+});
+
+test("a comma in a list with semicolons is a decimal comma", () => {
+  assert.deepEqual(typedList("0,5; 0,7 kV;0,9", 1), [0.5, "0.7 kV", 0.9]);
+  assert.deepEqual(typedList("100, 200; 300", 1), [100, 200, 300]);
+  assert.deepEqual(typedList("1,400; 1,5", 1), ["1,400", 1.5]);
 });

@@ -88,14 +88,19 @@ export const typedNumber = (text, unit) => {
 export const inSI = (number, factor) => Number((number / factor).toPrecision(15));
 
 /**
- * The numbers of a typed list as SI values. A number with a unit stays text, which the server converts.
+ * The numbers of a typed list as SI values. Other texts stay text, which the server converts or refuses. With a
+ * semicolon in the list, a comma between digits is a decimal comma.
  *
  * @param {string} text
  * @param {number} factor
  */
 export const typedList = (text, factor) =>
   text
-    .split(/[,;\s]+(?=[-+.\d])/)
+    .split(text.includes(";") ? /(?:[;\s]|,\s)+(?=[-+−.\d])/ : /[,;\s]+(?=[-+−.\d])/)
     .map((part) => part.trim())
     .filter(Boolean)
-    .map((part) => (Number.isFinite(Number(part)) ? inSI(Number(part), factor) : part));
+    .map((part) => {
+      const { number, rest, problem } = splitNumber(part);
+      if (problem !== undefined) return part;
+      return rest === "" ? inSI(number, factor) : `${number} ${rest}`;
+    });
