@@ -54,6 +54,8 @@ struct ParameterText<'a> {
     low: f64,
     high: f64,
     log: bool,
+    /// The limits of allowed values, if there are two.
+    limits: Option<[f64; 2]>,
     whole: bool,
     fitted: bool,
 }
@@ -148,6 +150,7 @@ impl<'a> ParameterText<'a> {
             low: slider.low,
             high: slider.high,
             log: slider.log,
+            limits: slider.limits,
             whole: matches!(parameter.kind, Kind::Number(Range::Whole(..))),
             fitted: parameter.is_fitted,
         }
@@ -183,6 +186,8 @@ struct Slider {
     high: f64,
     /// True for a logarithmic slider.
     log: bool,
+    /// The limits of allowed values, if there are two.
+    limits: Option<[f64; 2]>,
     /// The typical size of values, which determines the shown unit.
     typical: f64,
 }
@@ -194,14 +199,20 @@ impl Slider {
             Kind::Choice(_) => Range::Any,
         };
         let size = if value.is_finite() && value != 0.0 { value.abs() } else { usual(parameter.unit) };
-        let slider = |low: f64, high: f64, log: bool| Slider { low, high, log, typical: size };
+        let slider = |low: f64, high: f64, log: bool| Slider { low, high, log, limits: None, typical: size };
+        let limited = |low: f64, high: f64| Slider { limits: Some([low, high]), ..slider(low, high, false) };
         match range {
             Range::Whole(first, last) => {
                 let most = (4.0 * size).ceil().max(f64::from(first) + 1.0);
-                slider(f64::from(first), f64::from(last).min(most), false)
+                let allowed = limited(f64::from(first), f64::from(last));
+                Slider { high: allowed.high.min(most), ..allowed }
             }
-            Range::Share => slider(0.0, 1.0, false),
-            Range::Between(low, high) if low.is_finite() && high.is_finite() => slider(low, high, false),
+            Range::Share => limited(0.0, 1.0),
+            Range::Between(low, high) if low.is_finite() && high.is_finite() => {
+                // The limits themselves are not allowed.
+                let margin = 0.01 * (high - low);
+                limited(low + margin, high - margin)
+            }
             Range::Positive if parameter.name == DRIVE_FREQUENCY => slider(0.5 * size, 1.5 * size, false),
             Range::Positive | Range::Between(..) => slider(size / 4.0, 4.0 * size, true),
             Range::NonNegative => slider(0.0, 2.0 * size, false),

@@ -183,6 +183,8 @@ export interface Parameter {
   low: number;
   high: number;
   log: boolean;
+  /** The limits of allowed values; null if there are not two. */
+  limits: Range | null;
   whole: boolean;
   fitted: boolean;
 }

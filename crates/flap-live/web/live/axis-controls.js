@@ -48,10 +48,12 @@ export const showAxisControls = () => {
   byId("hysteresis").setAttribute("aria-pressed", String(state.updown));
 };
 
-/** A range around the value of a parameter. */
-const rangeAround = (/** @type {Parameter} */ { name, low, high }) => {
+/** A range around the value of a parameter, within the limits of allowed values. */
+const rangeAround = (/** @type {Parameter} */ { name, low, high, limits }) => {
   const value = valueIn(state.design, name);
-  return isFiniteNumber(value) && value > 0 ? { from: 0.6 * value, to: 1.4 * value } : { from: low, to: high };
+  if (!isFiniteNumber(value) || value <= 0) return { from: low, to: high };
+  const [least, most] = limits ?? [0, Number.POSITIVE_INFINITY];
+  return { from: Math.max(0.6 * value, least), to: Math.min(1.4 * value, most) };
 };
 
 /** Shows everything, after a change of the rows. */
