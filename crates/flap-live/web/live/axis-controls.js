@@ -85,9 +85,11 @@ const chooseLines = (/** @type {string} */ name) => {
   state.hidden = [];
   state.by = null;
   if (name && state.x.name !== name) {
-    const { from, to } = rangeAround(parameterNamed(name));
-    const value = (/** @type {number} */ i) => Number((from + (i * (to - from)) / (LINES - 1)).toPrecision(4));
-    state.by = { name, values: Array.from({ length: LINES }, (_, i) => value(i)) };
+    const parameter = parameterNamed(name);
+    const { from, to } = rangeAround(parameter);
+    const values = Array.from({ length: LINES }, (_, i) => from + (i * (to - from)) / (LINES - 1));
+    const rounded = values.map((value) => (parameter.whole ? Math.round(value) : Number(value.toPrecision(4))));
+    state.by = { name, values: [...new Set(rounded)] };
   }
   changed();
 };
@@ -96,7 +98,8 @@ export const buildAxisControls = () => {
   const options = (/** @type {{ name: string, label: string }[]} */ list) =>
     list.map(({ name, label }) => element("option", { value: name }, label));
   byId("measure").append(...options(opened.measures));
-  byId("x").append(...options(variableParameters));
+  // Most values between two ends are not whole.
+  byId("x").append(...options(variableParameters.filter(({ name, whole }) => !whole || name === opened.view.x.name)));
   byId("by").append(element("option", { value: "" }, "none"), ...options(variableParameters));
   byId("measure").onchange = () => {
     state.measure = byId("measure").value;
