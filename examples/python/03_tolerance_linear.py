@@ -1,4 +1,4 @@
-"""Tolerances of a build: linear propagation with exact derivatives, compared with 2,000 sampled builds.
+"""Tolerances of a build: linear propagation with exact derivatives, compared with 2,048 sampled builds.
 
 Six parameters of the bimorph of Jafferis et al. vary by 1 % and by 5 % (standard deviations). From one row with
 derivatives, the standard deviation of a measure is sqrt(sum of (derivative * deviation)^2). From the sample, the
