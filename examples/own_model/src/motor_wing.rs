@@ -154,7 +154,7 @@ impl Model<3> for MotorWing {
 
     const DESCRIPTION: Description = Description {
         name: "motor-wing",
-        doc: "device wing on the shaft of a motor, pitch by speed (Park and Abolfathi 2024)",
+        doc: "wing on the shaft of a motor, pitch by speed (Park and Abolfathi 2024)",
         parameters: Params::TABLE,
         presets: Params::PRESETS,
     };
