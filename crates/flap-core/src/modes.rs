@@ -21,8 +21,8 @@ impl Mode {
 
     /// Returns the two modes of M q̈ + diag(K) q = 0, in ascending order of frequency.
     ///
-    /// If the mass matrix `mass` [M₁₁, M₁₂, M₂₂] is not positive definite, or an entry of `stiffness` is not positive,
-    /// the frequencies are NaN.
+    /// If the mass matrix `mass` [M₁₁, M₁₂, M₂₂] is not positive definite, both frequencies are NaN. Each negative entry
+    /// of `stiffness` makes one frequency NaN.
     pub(crate) fn coupled([m11, m12, m22]: [f64; 3], stiffness: [f64; 2]) -> Vec<Mode> {
         // M = L Lᵀ leads to an ordinary symmetric eigenvalue problem, L⁻¹ K L⁻ᵀ.
         let inverse =
