@@ -253,6 +253,23 @@ def test_ends_of_the_axis_are_typed_with_units_or_refused_with_words(page):
     assert not page.find("#x-problem").is_displayed()
 
 
+def test_lines_and_axes_are_within_the_allowed_values(page):
+    for menu in ("by", "x"):
+        page.choose(menu, "actuator_width_ratio")
+        assert not page.find("#banner").is_displayed()
+    assert float(page.value("#x-to")) == 1.98
+
+
+def test_lines_and_sliders_of_a_whole_number_have_whole_values(other):
+    page = other("arabagi2013-75hz")
+    assert page.find_all("#by [value=strips]") and not page.find_all("#x [value=strips]")
+    page.choose("by", "strips")
+    assert page.names() == ["10", "13", "16", "19", "22"]
+    page.slider("strips").send_keys(Keys.ARROW_RIGHT)
+    page.rest()
+    assert page.changed() == {"strips": "17"}
+
+
 def test_points_without_a_motion_are_marks_at_the_foot(page):
     page.give("drive_voltage_pp", "1e5")
     page.type("#by-values", "100, 4000")
@@ -472,6 +489,17 @@ def test_the_address_keeps_the_design_and_the_back_button_undoes_a_step(page):
     page.rest()
     page.browser.forward()
     page.wait(lambda: page.value("#p-wing_length") == "20")
+
+
+def test_the_back_button_leaves_an_address_that_was_written_by_hand(page):
+    page.give("wing_length", "19")
+    page.rest()
+    page.script("location.hash = arguments[0]", '{"design":{"wing_length":0.018}}')
+    page.wait(lambda: page.value("#p-wing_length") == "18")
+    page.rest()
+    page.browser.back()
+    page.wait(lambda: page.value("#p-wing_length") == "19")
+    page.rest()
 
 
 def test_lines_that_are_switched_off_stay_so(page):

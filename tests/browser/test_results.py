@@ -499,6 +499,17 @@ def test_the_back_button_undoes_a_step(page):
     page.wait(lambda: page.chart("chart.scene.y.label") == "Lift, mean")
 
 
+def test_the_back_button_undoes_a_slide_of_a_filter(page):
+    page.click("#add")
+    whole = page.text("#status")
+    page.slide(0, 600)
+    page.wait(lambda: page.text("#status") != whole)
+    page.script("arguments[0].dispatchEvent(new Event('change'))", page.find(".filter input[type=range]"))
+    page.browser.back()
+    page.wait(lambda: page.text("#status") == whole)
+    assert len(page.find_all(".filter")) == 1
+
+
 def test_an_address_with_nonsense_opens_the_page(page):
     address = page.browser.current_url.split("#")[0]
     nonsense = {"views": [{"x": "no_such", "hidden": 3, "zoom": {"x": [1]}}], "slices": 5, "filters": {}}
