@@ -58,7 +58,7 @@ export const isFamilyFine = () => {
 };
 
 /** True if the axes of an answer are still the axes of the page. */
-const isWanted = (/** @type {ResponseAnswer} */ { kind, request: { x, by } }) => {
+const isWanted = (/** @type {Pick<ResponseAnswer, "kind" | "request">} */ { kind, request: { x, by } }) => {
   if (kind !== (state.updown ? "hysteresis" : "family") || x.name !== state.x.name) return false;
   return kind === "hysteresis" || by?.name === state.by?.name;
 };
@@ -89,7 +89,7 @@ const requestRows = async (kind, n) => {
     return isWanted(answer) ? answer : null;
   } catch (error) {
     if (!(error instanceof ServerError)) throw error;
-    showError(error);
+    if (isWanted({ kind, request: sent })) showError(error);
     return null;
   }
 };
@@ -119,12 +119,17 @@ export const requestCoarse = async () => {
   family.isBusy = false;
 };
 
+/** Number of fine families and responses up and down that the server computes. */
+let fineRuns = 0;
+
 /** Draws the fine family, or the responses up and down if the page shows them. */
 export const requestFine = async () => {
   if (family.isBusy || family.isStale) return;
+  fineRuns++;
   byId("chart").setAttribute("aria-busy", "true");
   const answer = await requestRows(state.updown ? "hysteresis" : "family", FINE);
-  byId("chart").removeAttribute("aria-busy");
+  fineRuns--;
+  if (fineRuns === 0) byId("chart").removeAttribute("aria-busy");
   if (answer) drawAnswer(answer, true);
 };
 
