@@ -35,7 +35,7 @@ pub(super) fn columns(request: &Request, axes: &Axes) -> Result<Columns, Failure
         PictureKind::Scatter => scatter(request, axes),
         PictureKind::Pareto => pareto(request),
         PictureKind::Histogram | PictureKind::Tornado => {
-            let x = request.required("x", request.x.or(request.three[0]), NO_MEASURES)?;
+            let x = request.required("x", request.x.or(request.measures[0]), NO_MEASURES)?;
             Ok(Columns::plain(kind, x, x))
         }
         PictureKind::Trajectory => trajectory(request),
@@ -171,12 +171,12 @@ fn map(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let y = request.y.or_else(|| free(Some(x)).next());
     refuse_sample(request, axes, &[x].into_iter().chain(y).collect::<Vec<_>>(), "cells")?;
     let y = request.required("y", y, "a map needs two parameters with several numbers")?;
-    let color = request.required("color", request.color.or(request.three[0]), NO_MEASURES)?;
+    let color = request.required("color", request.color.or(request.measures[0]), NO_MEASURES)?;
     Ok(Columns { color: Some(color), ..Columns::plain(PictureKind::Map, x, y) })
 }
 
 fn scatter(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
-    let [benefit, cost, motion] = request.three;
+    let [benefit, cost, motion] = request.measures;
     let (x, y) = plane(request)?;
     // Colours distinguish devices, presets or other options along an axis.
     let color = request.color.or_else(|| axes.words.first().copied());
@@ -191,7 +191,7 @@ fn pareto(request: &Request) -> Result<Columns, Failure> {
 
 /// Returns the horizontal and the vertical column; by default, the cost and the benefit.
 fn plane(request: &Request) -> Result<(usize, usize), Failure> {
-    let [benefit, cost, motion] = request.three;
+    let [benefit, cost, motion] = request.measures;
     let x = request.x.or_else(|| request.free([cost, motion, benefit], &[]));
     let x = request.required("x", x, FEW_MEASURES)?;
     let y = request.y.or_else(|| request.free([benefit, cost, motion], &[x]));

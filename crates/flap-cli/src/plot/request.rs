@@ -35,9 +35,9 @@ pub(super) struct Request<'a> {
     pub(super) end: usize,
     /// The measure that is drawn over a parameter.
     pub(super) response: Option<usize>,
-    /// Measures for benefit, cost and size of the motion. The three measures differ, and a measure may be missing in
-    /// the file.
-    pub(super) three: [Option<usize>; 3],
+    /// Measures for benefit, cost and size of the motion. No column has two roles. `None` if the file has
+    /// no column for a role.
+    pub(super) measures: [Option<usize>; 3],
 }
 
 impl<'a> Request<'a> {
@@ -45,13 +45,13 @@ impl<'a> Request<'a> {
     pub(super) fn of(source: &Source, args: &'a PlotArgs) -> Result<Request<'a>, Failure> {
         let find = |name: &Option<String>| name.as_deref().map(|name| source.find(name)).transpose();
         let names = source.names().to_vec();
-        let measures = source.place("status").map_or(names.len(), |status| status + 1);
-        let behind: Vec<&str> = names[measures..].iter().map(String::as_str).collect();
+        let first_measure = source.place("status").map_or(names.len(), |status| status + 1);
+        let measured: Vec<&str> = names[first_measure..].iter().map(String::as_str).collect();
         let mut taken = Vec::new();
-        let three = [Role::Benefit, Role::Cost, Role::Motion].map(|role| {
-            let found = usual(role, &behind, &taken)?;
-            taken.push(behind[found]);
-            Some(measures + found)
+        let measures = [Role::Benefit, Role::Cost, Role::Motion].map(|role| {
+            let found = usual(role, &measured, &taken)?;
+            taken.push(measured[found]);
+            Some(first_measure + found)
         });
         let filters = args.values().into_iter().map(|(name, value)| Ok((source.find(&name)?, value)));
         Ok(Request {
@@ -61,8 +61,8 @@ impl<'a> Request<'a> {
             y: find(&args.y)?,
             by: find(&args.by)?,
             color: find(&args.color)?,
-            response: usual(Role::Response, &behind, &[]).map(|found| measures + found),
-            three,
+            response: usual(Role::Response, &measured, &[]).map(|found| first_measure + found),
+            measures,
             args,
             end: source.place("branch").or_else(|| source.place("status")).unwrap_or(0),
             names,
@@ -86,7 +86,7 @@ impl<'a> Request<'a> {
 
     /// Returns true if the picture requires the cells of a column.
     pub(super) fn wants(&self, column: usize) -> bool {
-        let [a, b, c] = self.three;
+        let [a, b, c] = self.measures;
         let some = [self.x, self.y, self.by, self.color, self.response, a, b, c].contains(&Some(column));
         // The column after `branch` is the followed parameter.
         some || self.filters.iter().any(|(filtered, _)| *filtered == column)
