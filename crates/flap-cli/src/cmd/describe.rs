@@ -65,7 +65,7 @@ impl Asked {
         let find = |names: &[String]| {
             names.iter().map(|name| source.find(name.trim())).collect::<Result<Vec<usize>, Failure>>()
         };
-        let status = source.place("status");
+        let status = source.position("status");
         let behind = status.map_or(0, |status| status + 1);
         let columns = match args.columns.as_slice() {
             [] => ((behind..source.names().len()).collect(), false),
@@ -73,7 +73,7 @@ impl Asked {
         };
         let mut by = find(&args.by)?;
         if by.is_empty() && status.is_some() {
-            by = MAIN.into_iter().filter_map(|name| source.place(name)).collect();
+            by = MAIN.into_iter().filter_map(|name| source.position(name)).collect();
             let first = Some(behind).filter(|&first| by.is_empty() && first < source.names().len());
             by.extend(first);
         }

@@ -23,13 +23,13 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     let columns = columns(args, &source)?;
     let by = source.find(args.by.trim())?;
     let ranking = source.names()[by].clone();
-    let status = source.place("status").filter(|_| !all);
+    let status = source.position("status").filter(|_| !all);
     let units: Vec<String> = columns.iter().map(|&column| source.unit(column)).collect();
     let names: Vec<String> = columns.iter().map(|&column| source.names()[column].clone()).collect();
 
     let aim = aim.unwrap_or_else(|| Aim::of(&ranking));
     // The list begins with the columns of the point, so these columns have the same places in the file and in the list.
-    let axes = source.place("status").map_or(0..0, |end| 1..end);
+    let axes = source.position("status").map_or(0..0, |end| 1..end);
     let mut ends: Vec<Ends> = axes.clone().map(|_| Ends::default()).collect();
     let mut best = Best { most: args.rows.get(), aim, rows: Vec::new() };
     let mut left_out = LeftOut::default();
@@ -82,7 +82,7 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
 /// Returns the columns to list. The list begins with the columns of the point, or with the first column of other files.
 /// The ranking column, the columns of `--columns`, and the status follow.
 fn columns(args: &TopArgs, source: &Source) -> Result<Vec<usize>, Failure> {
-    let status = source.place("status");
+    let status = source.position("status");
     let mut columns: Vec<usize> = (0..status.unwrap_or(1)).collect();
     let asked = [&args.by].into_iter().chain(&args.columns);
     let asked = asked.map(|name| source.find(name.trim())).collect::<Result<Vec<usize>, Failure>>()?;

@@ -68,7 +68,7 @@ impl Source {
     }
 
     /// Returns the position of the column `name`, if the file has this column.
-    pub(crate) fn place(&self, name: &str) -> Option<usize> {
+    pub(crate) fn position(&self, name: &str) -> Option<usize> {
         self.names().iter().position(|known| known == name)
     }
 

@@ -55,7 +55,7 @@ fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
     if request.matrix().is_some() {
         return Ok(PictureKind::Matrix);
     }
-    let is_motion = MOTION.iter().all(|name| request.place(name).is_some());
+    let is_motion = MOTION.iter().all(|name| request.position(name).is_some());
     if is_motion && request.x.is_none() && request.y.is_none() {
         return Ok(PictureKind::Trajectory);
     }
@@ -199,12 +199,12 @@ fn plane(request: &Request) -> Result<(usize, usize), Failure> {
 }
 
 fn trajectory(request: &Request) -> Result<Columns, Failure> {
-    if let Some(name) = MOTION.iter().find(|name| request.place(name).is_none()) {
+    if let Some(name) = MOTION.iter().find(|name| request.position(name).is_none()) {
         return Err(request.lacks(format!(
             "a trajectory requires the column {name}, as in files of `flap run --trajectory`"
         )));
     }
-    let time = request.place(MOTION[0]).unwrap_or(0);
+    let time = request.position(MOTION[0]).unwrap_or(0);
     Ok(Columns::plain(PictureKind::Trajectory, time, time))
 }
 
@@ -218,7 +218,7 @@ fn matrix(request: &Request) -> Result<Columns, Failure> {
 }
 
 fn hysteresis(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
-    let branch = request.branch().filter(|_| request.place("bistable").is_some()).ok_or_else(|| {
+    let branch = request.branch().filter(|_| request.position("bistable").is_some()).ok_or_else(|| {
         request.lacks(
             "a picture of hysteresis requires the columns `branch` and `bistable`, as `flap respond --out` writes them",
         )
@@ -231,5 +231,5 @@ fn hysteresis(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
 
 /// Returns the column of the drive frequency, if the drive frequency is an axis.
 fn frequency(request: &Request, axes: &Axes) -> Option<usize> {
-    request.place("drive_frequency").filter(|column| axes.columns.contains(column))
+    request.position("drive_frequency").filter(|column| axes.columns.contains(column))
 }

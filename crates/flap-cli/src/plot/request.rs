@@ -45,7 +45,7 @@ impl<'a> Request<'a> {
     pub(super) fn of(source: &Source, args: &'a PlotArgs) -> Result<Request<'a>, Failure> {
         let find = |name: &Option<String>| name.as_deref().map(|name| source.find(name)).transpose();
         let names = source.names().to_vec();
-        let first_measure = source.place("status").map_or(names.len(), |status| status + 1);
+        let first_measure = source.position("status").map_or(names.len(), |status| status + 1);
         let measured: Vec<&str> = names[first_measure..].iter().map(String::as_str).collect();
         let mut taken = Vec::new();
         let measures = [Role::Benefit, Role::Cost, Role::Motion].map(|role| {
@@ -64,7 +64,7 @@ impl<'a> Request<'a> {
             response: usual(Role::Response, &measured, &[]).map(|found| first_measure + found),
             measures,
             args,
-            end: source.place("branch").or_else(|| source.place("status")).unwrap_or(0),
+            end: source.position("branch").or_else(|| source.position("status")).unwrap_or(0),
             names,
         })
     }
@@ -79,8 +79,8 @@ impl<'a> Request<'a> {
         columns.iter().map(|&column| self.name(column)).collect::<Vec<_>>().join(", ")
     }
 
-    /// Returns the index of the column `name`.
-    pub(super) fn place(&self, name: &str) -> Option<usize> {
+    /// Returns the position of the column `name`, if the file has this column.
+    pub(super) fn position(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|known| known == name)
     }
 
@@ -93,7 +93,7 @@ impl<'a> Request<'a> {
             || self.best_over.contains(&column)
             || column <= self.end + 1
             // The columns before the time name the motions.
-            || self.place("time_s").is_some_and(|time| column < time)
+            || self.position("time_s").is_some_and(|time| column < time)
             || self.matrix().is_some()
             || (self.args.derivatives && derivative::parts(&self.names[column]).is_some())
             || NEEDED.contains(&self.names[column].as_str())
@@ -101,9 +101,9 @@ impl<'a> Request<'a> {
 
     /// Returns the column with the inputs of a vehicle, if the file has one line for each input.
     pub(super) fn matrix(&self) -> Option<usize> {
-        let has = |name: &str| self.place(name).is_some();
+        let has = |name: &str| self.position(name).is_some();
         let is_matrix = has("unit") && has("value") && COMPONENTS.iter().all(|name| has(name));
-        self.place(INPUT).filter(|_| is_matrix)
+        self.position(INPUT).filter(|_| is_matrix)
     }
 
     /// Returns the first of the given columns that neither the user requested nor `taken` contains.
@@ -115,7 +115,7 @@ impl<'a> Request<'a> {
 
     /// Returns the column with the branch of each row of `flap respond`.
     pub(super) fn branch(&self) -> Option<usize> {
-        self.place("branch")
+        self.position("branch")
     }
 
     /// Returns true if the user set a better direction.
