@@ -98,10 +98,7 @@ pub(crate) fn bars<'py>(py: Python<'py>, values: PyReadonlyArray1<'py, f64>) -> 
     let found = sample::histogram(values.as_slice()?);
     Ok(found.map(|found| {
         let counts = found.counts.iter().map(|&count| count as f64);
-        Bars {
-            edges: PyArray1::from_vec(py, found.edges),
-            counts: PyArray1::from_iter(py, counts),
-        }
+        Bars { edges: PyArray1::from_vec(py, found.edges), counts: PyArray1::from_iter(py, counts) }
     }))
 }
 

@@ -66,7 +66,7 @@ fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
     if let (Some(x), Some(y)) = (request.x, request.y) {
         return Ok(of_columns(request, axes, x, y));
     }
-    if request.end == 0 {
+    if request.parameters_end == 0 {
         let message = "no kind of picture suits this file: it is neither a sweep nor a motion";
         return Err(request.lacks(message).help("choose columns with --x and --y"));
     }
@@ -78,14 +78,14 @@ fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
 
 /// Returns the kind of picture for two columns of a grid.
 fn of_columns(request: &Request, axes: &Axes, x: usize, y: usize) -> PictureKind {
-    let is_parameter = |column: usize| (1..request.end).contains(&column);
+    let is_parameter = |column: usize| (1..request.parameters_end).contains(&column);
     match (is_parameter(x), is_parameter(y)) {
         (true, true) => PictureKind::Map,
         // Designs along one axis form a curve, for which a front has no meaning.
-        (false, false) if request.end > 0 && (axes.columns.len() > 1 || request.has_aims()) => {
+        (false, false) if request.parameters_end > 0 && (axes.columns.len() > 1 || request.has_aims()) => {
             PictureKind::Pareto
         }
-        (false, false) if request.end > 0 => PictureKind::Scatter,
+        (false, false) if request.parameters_end > 0 => PictureKind::Scatter,
         _ => PictureKind::Response,
     }
 }
@@ -132,7 +132,8 @@ fn no_values(axes: &Axes) -> &'static str {
 
 /// Returns an error if a sample has no axis for the picture: its designs form no lines and no cells.
 fn refuse_sample(request: &Request, axes: &Axes, columns: &[usize], form: &str) -> Result<(), Failure> {
-    let stray = columns.iter().find(|&&column| axes.members.contains(&column) || column >= request.end);
+    let stray =
+        columns.iter().find(|&&column| axes.members.contains(&column) || column >= request.parameters_end);
     match stray.filter(|_| axes.sampled) {
         Some(&column) => {
             let name = request.name(column);

@@ -26,7 +26,7 @@ pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String
     let request = Request::of(&source, args)?;
     let comparisons = Filters::of(&args.comparisons(), &source)?;
     let table = comparisons.read(source, |_| true, MOST_ROWS)?;
-    let axes = Axes::of(&table, request.end);
+    let axes = Axes::of(&table, request.parameters_end);
     let start = start(&request, &table, &axes, args)?;
     if table.of > table.rows {
         console::say(&format!("{} of {} rows are in the page, evenly chosen", table.rows, table.of));

@@ -31,8 +31,9 @@ pub(super) struct Request<'a> {
     pub(super) filters: Vec<(usize, String)>,
     /// Axes over which the best rows are drawn.
     pub(super) best_over: Vec<usize>,
-    /// The end of the leading parameters: the index of `status`, or of `branch`.
-    pub(super) end: usize,
+    /// The columns 1 to `parameters_end`, exclusive, are parameters. This column is `branch` or `status`; 0 if the file has
+    /// neither.
+    pub(super) parameters_end: usize,
     /// The measure that is drawn over a parameter.
     pub(super) response: Option<usize>,
     /// Measures for benefit, cost and size of the motion. No column has two roles. `None` if the file has
@@ -64,7 +65,7 @@ impl<'a> Request<'a> {
             response: usual(Role::Response, &measured, &[]).map(|found| first_measure + found),
             measures,
             args,
-            end: source.position("branch").or_else(|| source.position("status")).unwrap_or(0),
+            parameters_end: source.position("branch").or_else(|| source.position("status")).unwrap_or(0),
             names,
         })
     }
@@ -91,7 +92,7 @@ impl<'a> Request<'a> {
         // The column after `branch` is the followed parameter.
         some || self.filters.iter().any(|(filtered, _)| *filtered == column)
             || self.best_over.contains(&column)
-            || column <= self.end + 1
+            || column <= self.parameters_end + 1
             // The columns before the time name the motions.
             || self.position("time_s").is_some_and(|time| column < time)
             || self.matrix().is_some()

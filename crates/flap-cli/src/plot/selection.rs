@@ -39,7 +39,7 @@ impl Selection {
 
 /// Chooses kind, columns and rows.
 pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<Selection, Failure> {
-    let axes = Axes::of(table, request.end);
+    let axes = Axes::of(table, request.parameters_end);
     let mut free = axes.clone();
     free.columns.retain(|axis| !request.best_over.contains(axis));
     let columns = kind::columns(request, &free)?;
@@ -69,7 +69,7 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
         ));
     }
     notes.extend(slice.taken.into_iter().map(|taken| taken.shown));
-    let mut parameters: Vec<usize> = (1..request.end).collect();
+    let mut parameters: Vec<usize> = (1..request.parameters_end).collect();
     let sample = table.sample.as_deref().unwrap_or_default();
     parameters.sort_by_key(|&column| !sample.contains(&table.columns[column].name));
     let aims = aims(request, &columns);
