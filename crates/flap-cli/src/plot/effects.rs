@@ -161,7 +161,7 @@ fn effects(table: &Table, selection: &Selection, plan: Option<&Plan>) -> Result<
     let values = table.numbers(measure)?;
     let rows: Vec<usize> = selection.rows.iter().copied().filter(|&row| values[row].is_finite()).collect();
     if rows.is_empty() {
-        return Err(selection.nothing(table, measure));
+        return Err(selection.no_numbers(table, measure));
     }
     let of_rows = |values: &[f64]| rows.iter().map(|&row| values[row]).collect::<Vec<f64>>();
     let values = of_rows(values);

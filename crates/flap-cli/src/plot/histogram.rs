@@ -25,7 +25,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     let numbers = table.numbers(column)?;
     let values: Vec<f64> = selection.rows.iter().map(|&row| numbers[row] * label.factor).collect();
     let Some(found) = histogram(&values) else {
-        return Err(selection.nothing(table, column));
+        return Err(selection.no_numbers(table, column));
     };
     let designs: usize = found.counts.iter().sum();
     console::say(&told(&table.columns[column].name, designs, &found, &label));

@@ -52,7 +52,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
         .collect::<Result<Vec<Curve>, Failure>>()?;
     let drawn: Vec<(f64, f64)> = curves.iter().flat_map(|curve| curve.branches.concat()).collect();
     let Some([width, height]) = scale::extent(&drawn) else {
-        return Err(selection.nothing(table, selection.columns.y));
+        return Err(selection.no_numbers(table, selection.columns.y));
     };
 
     let (mut plots, mut jumps) = (Vec::new(), Vec::new());

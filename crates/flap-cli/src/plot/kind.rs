@@ -68,7 +68,7 @@ fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
     }
     if request.parameters_end == 0 {
         let message = "no kind of picture suits this file: it is neither a sweep nor a motion";
-        return Err(request.lacks(message).help("choose columns with --x and --y"));
+        return Err(request.unsuitable(message).help("choose columns with --x and --y"));
     }
     let numbers = axes.columns.len() - axes.words.len();
     let lines = request.by.is_some() || numbers < 2 || frequency(request, axes).is_some();
@@ -201,7 +201,7 @@ fn plane(request: &Request) -> Result<(usize, usize), Failure> {
 
 fn trajectory(request: &Request) -> Result<Columns, Failure> {
     if let Some(name) = MOTION.iter().find(|name| request.position(name).is_none()) {
-        return Err(request.lacks(format!(
+        return Err(request.unsuitable(format!(
             "a trajectory requires the column {name}, as in files of `flap run --trajectory`"
         )));
     }
@@ -211,7 +211,7 @@ fn trajectory(request: &Request) -> Result<Columns, Failure> {
 
 fn matrix(request: &Request) -> Result<Columns, Failure> {
     let input = request.matrix().ok_or_else(|| {
-        request.lacks(
+        request.unsuitable(
             "a matrix requires the columns input, unit, value, and force and torque, as `flap vehicle --format csv` writes them",
         )
     })?;
@@ -220,7 +220,7 @@ fn matrix(request: &Request) -> Result<Columns, Failure> {
 
 fn hysteresis(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let branch = request.branch().filter(|_| request.position("bistable").is_some()).ok_or_else(|| {
-        request.lacks(
+        request.unsuitable(
             "a picture of hysteresis requires the columns `branch` and `bistable`, as `flap respond --out` writes them",
         )
     })?;

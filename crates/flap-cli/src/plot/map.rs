@@ -52,7 +52,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     };
     let label = table.label(color);
     let Some(range) = scale::range(grid.cells.iter().map(|cell| cell.value)) else {
-        return Err(selection.nothing(table, color));
+        return Err(selection.no_numbers(table, color));
     };
     let bar = Axis::linear(label.text(), scale::padded(range, 0.0));
     let missing = grid.cells.iter().filter(|cell| !cell.value.is_finite()).count();

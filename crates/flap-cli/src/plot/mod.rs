@@ -78,7 +78,7 @@ fn picture(args: &PlotArgs, out: &Path) -> Result<(), Failure> {
     let plan = source.take_plan();
     let request = Request::of(&source, args)?;
     let filters = Filters::of(&args.comparisons(), &source)?;
-    let table = filters.read(source, |column| request.wants(column), usize::MAX)?;
+    let table = filters.read(source, |column| request.uses(column), usize::MAX)?;
     let selection = selection::select(&request, &table, heading(args))?;
     let scene = if args.derivatives {
         effects::draw(&table, &selection, plan.as_ref(), canvas.size)?

@@ -85,8 +85,8 @@ impl<'a> Request<'a> {
         self.names.iter().position(|known| known == name)
     }
 
-    /// Returns true if the picture requires the cells of a column.
-    pub(super) fn wants(&self, column: usize) -> bool {
+    /// Returns true if the picture may use the cells of a column.
+    pub(super) fn uses(&self, column: usize) -> bool {
         let [a, b, c] = self.measures;
         let some = [self.x, self.y, self.by, self.color, self.response, a, b, c].contains(&Some(column));
         // The column after `branch` is the followed parameter.
@@ -126,11 +126,11 @@ impl<'a> Request<'a> {
 
     /// Returns the column of `--option`. If the column is missing, the failure contains the reason `why`.
     pub(super) fn required(&self, option: &str, column: Option<usize>, why: &str) -> Result<usize, Failure> {
-        column.ok_or_else(|| self.lacks(format!("--{option} is not given, and {why}")))
+        column.ok_or_else(|| self.unsuitable(format!("--{option} is not given, and {why}")))
     }
 
-    /// Returns the failure of a picture without a required column. The help lists the columns of the file.
-    pub(super) fn lacks(&self, message: impl Into<String>) -> Failure {
+    /// Returns the failure of a picture that does not suit the file. The help lists the columns of the file.
+    pub(super) fn unsuitable(&self, message: impl Into<String>) -> Failure {
         Failure::usage(message).help(columns::listed(self.names.iter().map(String::as_str)))
     }
 }

@@ -65,7 +65,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
         drawn.extend(points);
     }
     let Some(heights) = scale::range(drawn.iter().map(|point| point.1)) else {
-        return Err(selection.nothing(table, selection.columns.y));
+        return Err(selection.no_numbers(table, selection.columns.y));
     };
     let mut values: Vec<f64> = drawn.iter().map(|point| point.0).collect();
     values.sort_by(f64::total_cmp);

@@ -83,7 +83,7 @@ impl Points {
         let places: Vec<(f64, f64)> =
             rows.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
         let Some(extent) = scale::extent(&places) else {
-            return Err(selection.nothing(table, selection.columns.y));
+            return Err(selection.no_numbers(table, selection.columns.y));
         };
         let shown = scale::even(places.len(), MOST_POINTS);
         let missing = selection.rows.len() - rows.len();
@@ -124,7 +124,7 @@ impl Points {
         let values = table.numbers(color)?;
         let label = table.label(color);
         let Some(range) = scale::range(self.rows.iter().map(|&row| values[row] * label.factor)) else {
-            return Err(selection.nothing(table, color));
+            return Err(selection.no_numbers(table, color));
         };
         let (low, high) = scale::padded(range, 0.0);
         let mut groups = vec![Vec::new(); SHADES + 1];

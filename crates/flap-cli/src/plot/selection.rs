@@ -28,7 +28,7 @@ pub(super) struct Selection {
 
 impl Selection {
     /// Returns the failure of a picture for which `column` has no number.
-    pub(super) fn nothing(&self, table: &Table, column: usize) -> Failure {
+    pub(super) fn no_numbers(&self, table: &Table, column: usize) -> Failure {
         let (name, rows) = (&table.columns[column].name, self.rows.len());
         let message = format!("none of {rows} rows has a value of {name}: there is nothing to draw");
         Failure::usage(message).help(

@@ -31,7 +31,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     let values = of_rows(values);
     let designs = values.iter().filter(|value| value.is_finite()).count();
     if designs == 0 {
-        return Err(selection.nothing(table, measure));
+        return Err(selection.no_numbers(table, measure));
     }
     let (places, columns): (Vec<usize>, Vec<Vec<f64>>) = (selection.parameters.iter())
         .filter_map(|&column| match &table.columns[column].cells {

@@ -94,7 +94,7 @@ fn several(table: &Table, selection: &Selection, motions: &[Motion], size: Size)
             drawn.extend(motion);
         }
         let Some([span, angles]) = scale::extent(&drawn) else {
-            return Err(selection.nothing(table, column));
+            return Err(selection.no_numbers(table, column));
         };
         panels.push(Panel::new(
             Axis::linear(label.text(), scale::padded(span, 0.0)),
@@ -146,7 +146,7 @@ fn one(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failur
     }
     let (Some([span, angles]), Some([around, rates])) = (scale::extent(&motions), scale::extent(&loops))
     else {
-        return Err(selection.nothing(table, selection.columns.x));
+        return Err(selection.no_numbers(table, selection.columns.x));
     };
     let angle = labels::titled("Angle", &labels::printed("deg"));
     let rate = labels::titled("Rate", &labels::printed("deg/ms"));
