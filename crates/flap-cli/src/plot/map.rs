@@ -102,7 +102,7 @@ fn scattered(table: &Table, selection: &Selection, color: usize) -> Result<Grid,
     let mut numbers: Vec<(u64, u64)> = x.iter().zip(&y).map(|(x, y)| (x.to_bits(), y.to_bits())).collect();
     numbers.sort_unstable();
     if numbers.windows(2).any(|two| two[0] == two[1]) {
-        return Err(several(table, selection));
+        return Err(several_rows(table, selection));
     }
     let points: Vec<[f64; 2]> = x.iter().zip(&y).map(|(x, y)| [share(&across, *x), share(&up, *y)]).collect();
     let (colours, factor) = (table.numbers(color)?, table.label(color).factor);
@@ -183,7 +183,7 @@ fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Fail
     for (place, &row) in selection.rows.iter().enumerate() {
         let cell = &mut values[up.codes[place] * columns + across.codes[place]];
         if cell.is_some() {
-            return Err(several(table, selection));
+            return Err(several_rows(table, selection));
         }
         *cell = Some(colours[row] * factor);
     }
@@ -212,7 +212,7 @@ fn curves(table: &Table, selection: &Selection, columns: [usize; 2], color: usiz
             of_curve.map(|(&row, _)| (places[row] * label.factor, colours[row] * factor)).collect();
         curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         if curve.windows(2).any(|two| two[0].0 == two[1].0) {
-            return Err(several(table, selection));
+            return Err(several_rows(table, selection));
         }
         let places: Vec<f64> = curve.iter().map(|(place, _)| *place).collect();
         let edges = edges(&places, false);
@@ -258,7 +258,7 @@ fn check_count(count: usize, shown: &str) -> Result<(), Failure> {
     ))
 }
 
-fn several(table: &Table, selection: &Selection) -> Failure {
+fn several_rows(table: &Table, selection: &Selection) -> Failure {
     let [x, y] = [selection.columns.x, selection.columns.y].map(|column| table.columns[column].name.as_str());
     let message = format!("several rows have the same {x} and {y}");
     Failure::usage(message).help("choose one value of each of the other parameters with --where")

@@ -47,7 +47,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
             of_line.iter().map(|&row| (across[row] * x.factor, up[row] * y.factor)).collect();
         points.sort_by(|a, b| a.0.total_cmp(&b.0));
         if points.windows(2).any(|two| two[0].0 == two[1].0) {
-            return Err(several(table, selection));
+            return Err(several_rows(table, selection));
         }
         missing += points.iter().filter(|point| !point.1.is_finite()).count();
         rows += points.len();
@@ -148,7 +148,7 @@ pub(super) fn ordered(table: &Table, selection: &Selection) -> bool {
     selection.columns.by.is_some_and(|by| table.numbers(by).is_ok())
 }
 
-fn several(table: &Table, selection: &Selection) -> Failure {
+fn several_rows(table: &Table, selection: &Selection) -> Failure {
     let name = &table.columns[selection.columns.x].name;
     Failure::usage(format!("several rows of one line have the same {name}")).help(
         "use --by to draw a line for each value of a column, --where to choose one value, or --kind scatter to draw points",

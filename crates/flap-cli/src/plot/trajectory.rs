@@ -30,7 +30,11 @@ const MOST_MOTIONS: usize = 16;
 /// Draws one motion with its phase portrait, or several motions over time.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let motions = motions(table, selection);
-    if motions.len() > 1 { several(table, selection, &motions, size) } else { one(table, selection, size) }
+    if motions.len() > 1 {
+        draw_several(table, selection, &motions, size)
+    } else {
+        draw_one(table, selection, size)
+    }
 }
 
 /// The rows of one motion.
@@ -76,7 +80,12 @@ fn motions(table: &Table, selection: &Selection) -> Vec<Motion> {
 }
 
 /// Draws stroke and pitch of several motions over time, one below the other.
-fn several(table: &Table, selection: &Selection, motions: &[Motion], size: Size) -> Result<Scene, Failure> {
+fn draw_several(
+    table: &Table,
+    selection: &Selection,
+    motions: &[Motion],
+    size: Size,
+) -> Result<Scene, Failure> {
     let time = table.numbers(selection.columns.x)?;
     let label = table.label(selection.columns.x);
     let mut panels = Vec::new();
@@ -106,7 +115,7 @@ fn several(table: &Table, selection: &Selection, motions: &[Motion], size: Size)
 }
 
 /// Draws the motion beside its phase portrait, or above it in a narrow picture.
-fn one(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
+fn draw_one(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let time = table.numbers(selection.columns.x)?;
     let label = table.label(selection.columns.x);
     let (mut over_time, mut portrait) = (Vec::new(), Vec::new());
