@@ -34,23 +34,23 @@ pub(crate) struct Source {
     /// The plan of the sidecar.
     plan: Option<Plan>,
     path: PathBuf,
-    tells: bool,
+    is_verbose: bool,
 }
 
 impl Source {
-    /// Opens the results and reads the header. If `tells` is true, prints notes and warnings about the results to
+    /// Opens the results and reads the header. If `is_verbose` is true, prints notes and warnings about the results to
     /// stderr.
-    pub(crate) fn open(path: &Path, read: &ReadArgs, tells: bool) -> Result<Source, Failure> {
+    pub(crate) fn open(path: &Path, read: &ReadArgs, is_verbose: bool) -> Result<Source, Failure> {
         Failure::unless_results(path)?;
         let opened = integrity::open(path, read.on_damage())?;
         job::require_checkpoint(path, &opened)?;
         let Opened { reader, sidecar, notes } = opened;
-        if tells {
+        if is_verbose {
             // Only sweeps write sidecars, but motions and responses can be drawn too.
             let is_sweep =
                 ["point", "status"].iter().all(|name| reader.names().iter().any(|own| own == name));
-            let is_told = |note: &&Note| is_sweep || !matches!(note, Note::Unverified { .. });
-            notes.iter().filter(is_told).for_each(job::tell);
+            let is_printed = |note: &&Note| is_sweep || !matches!(note, Note::Unverified { .. });
+            notes.iter().filter(is_printed).for_each(job::tell);
         }
         if reader.names().iter().all(String::is_empty) {
             return Err(Failure::usage(format!("{} has no columns", path.display())));
@@ -60,7 +60,7 @@ impl Source {
         let sample = plan.as_ref().and_then(sampled);
         let derived = plan.as_ref().map(derived).unwrap_or_default();
         let refined = plan.as_ref().map(refined).unwrap_or_default();
-        Ok(Source { reader, units, sample, derived, refined, plan, path: path.to_owned(), tells })
+        Ok(Source { reader, units, sample, derived, refined, plan, path: path.to_owned(), is_verbose })
     }
 
     pub(crate) fn names(&self) -> &[String] {
@@ -93,7 +93,7 @@ impl Source {
             .reader
             .next(row)
             .map_err(|error| Failure::system(format!("cannot read {}: {error}", self.path.display())))?;
-        if !found && self.tells {
+        if !found && self.is_verbose {
             job::tell_missed(&self.path, &self.reader);
         }
         Ok(found)

@@ -20,9 +20,9 @@ use crate::failure::Failure;
 /// Largest number of rows in a page. A browser draws all rows many times while the user drags.
 const MOST_ROWS: usize = 1 << 17;
 
-/// Returns the page of results. If `tells` is true, prints warnings about the results to stderr.
-pub(super) fn page(args: &PlotArgs, heading: &str, tells: bool) -> Result<String, Failure> {
-    let source = Source::open(&args.results, &args.read, tells)?;
+/// Returns the page of results. If `is_verbose` is true, prints warnings about the results to stderr.
+pub(super) fn page(args: &PlotArgs, heading: &str, is_verbose: bool) -> Result<String, Failure> {
+    let source = Source::open(&args.results, &args.read, is_verbose)?;
     let request = Request::of(&source, args)?;
     let comparisons = Filters::of(&args.comparisons(), &source)?;
     let table = comparisons.read(source, |_| true, MOST_ROWS)?;
