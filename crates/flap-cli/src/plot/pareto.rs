@@ -32,7 +32,7 @@ const RING: f64 = 4.0;
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let designs = Points::of(table, selection)?;
     let (x_aim, y_aim) = selection.aims;
-    let best = front(&designs.places, (x_aim == Aim::Max, y_aim == Aim::Max));
+    let best = front(&designs.places, selection.aims);
     let (drawn, all) = (designs.shown.len(), designs.places.len());
     if drawn < all {
         console::say(&format!(
@@ -133,32 +133,29 @@ fn steps(corners: &[(f64, f64)], x_aim: Aim) -> Vec<(f64, f64)> {
     line
 }
 
-/// The better direction: `true` if larger values are better.
-type Better = bool;
-
 /// Returns the points that no other point dominates, in rising order of the first number.
 ///
 /// One point dominates another point if both numbers are at least as good and one number is better. Points with NaN are
 /// ignored.
-fn front(points: &[(f64, f64)], better: (Better, Better)) -> Vec<usize> {
+fn front(points: &[(f64, f64)], aims: (Aim, Aim)) -> Vec<usize> {
     // From here on, larger values are better in both numbers.
-    let toward = |value: f64, more: Better| if more { value } else { -value };
-    let place = |index: usize| (toward(points[index].0, better.0), toward(points[index].1, better.1));
+    let score = |value: f64, aim: Aim| if aim == Aim::Max { value } else { -value };
+    let scores = |index: usize| (score(points[index].0, aims.0), score(points[index].1, aims.1));
     let known = |index: &usize| !points[*index].0.is_nan() && !points[*index].1.is_nan();
     let mut order: Vec<usize> = (0..points.len()).filter(known).collect();
     order.sort_by(|&a, &b| {
-        let (a, b) = (place(a), place(b));
+        let (a, b) = (scores(a), scores(b));
         b.0.total_cmp(&a.0).then(b.1.total_cmp(&a.1))
     });
     let mut kept: Vec<usize> = Vec::new();
     for index in order {
-        let (x, y) = place(index);
+        let (x, y) = scores(index);
         // All earlier points are at least as good in x, and the last kept point has the best y of them.
-        let stands = kept.last().is_none_or(|&last| {
-            let (best_x, best_y) = place(last);
+        let is_front = kept.last().is_none_or(|&last| {
+            let (best_x, best_y) = scores(last);
             y > best_y || (y == best_y && x == best_x)
         });
-        if stands {
+        if is_front {
             kept.push(index);
         }
     }
@@ -178,11 +175,10 @@ mod tests {
     }
 
     /// Compares every pair of points, as in the definition of dominance.
-    fn brute_force(points: &[(f64, f64)], better: (Better, Better)) -> Vec<usize> {
-        let at_least = |a: f64, b: f64, more: Better| if more { a >= b } else { a <= b };
-        let dominates = |a: (f64, f64), b: (f64, f64)| {
-            at_least(a.0, b.0, better.0) && at_least(a.1, b.1, better.1) && a != b
-        };
+    fn brute_force(points: &[(f64, f64)], aims: (Aim, Aim)) -> Vec<usize> {
+        let at_least = |a: f64, b: f64, aim: Aim| if aim == Aim::Max { a >= b } else { a <= b };
+        let dominates =
+            |a: (f64, f64), b: (f64, f64)| at_least(a.0, b.0, aims.0) && at_least(a.1, b.1, aims.1) && a != b;
         let whole = |point: (f64, f64)| !point.0.is_nan() && !point.1.is_nan();
         (0..points.len())
             .filter(|&i| whole(points[i]) && !points.iter().any(|&other| dominates(other, points[i])))
@@ -205,20 +201,22 @@ mod tests {
         for seed in 0..200 {
             let count = usize::try_from(1 + seed % 40).unwrap();
             let points = points(count, seed);
-            for better in [(true, true), (true, false), (false, true), (false, false)] {
-                let mut found = front(&points, better);
+            for aims in
+                [(Aim::Max, Aim::Max), (Aim::Max, Aim::Min), (Aim::Min, Aim::Max), (Aim::Min, Aim::Min)]
+            {
+                let mut found = front(&points, aims);
                 let rising: Vec<f64> = found.iter().map(|&index| points[index].0).collect();
                 assert!(rising.is_sorted(), "{rising:?}");
                 found.sort_unstable();
-                assert_eq!(found, brute_force(&points, better), "seed {seed}, {better:?}");
+                assert_eq!(found, brute_force(&points, aims), "seed {seed}, {aims:?}");
             }
         }
     }
 
     #[test]
     fn nothing_has_no_front() {
-        assert!(front(&[], (true, false)).is_empty());
-        assert!(front(&[(f64::NAN, 1.0)], (true, false)).is_empty());
-        assert_eq!(front(&[(1.0, 1.0)], (true, false)), [0]);
+        assert!(front(&[], (Aim::Max, Aim::Min)).is_empty());
+        assert!(front(&[(f64::NAN, 1.0)], (Aim::Max, Aim::Min)).is_empty());
+        assert_eq!(front(&[(1.0, 1.0)], (Aim::Max, Aim::Min)), [0]);
     }
 }
