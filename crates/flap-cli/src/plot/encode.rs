@@ -22,7 +22,7 @@ pub(super) fn bytes(scene: Scene, format: Format, canvas: &Canvas) -> Result<Vec
         Format::Svg => {
             let svg = SvgBackend::new().render_scene(&scene);
             let svg = match canvas.print {
-                Some(print) => in_print(&svg, &scene, print)?,
+                Some(print) => with_print_size(&svg, &scene, print)?,
                 None => svg,
             };
             Ok(svg.into_bytes())
@@ -32,7 +32,7 @@ pub(super) fn bytes(scene: Scene, format: Format, canvas: &Canvas) -> Result<Vec
 }
 
 /// Returns an SVG with its width and height in millimetres.
-fn in_print(svg: &str, scene: &Scene, print: Print) -> Result<String, String> {
+fn with_print_size(svg: &str, scene: &Scene, print: Print) -> Result<String, String> {
     // Without the rounding errors of inches.
     let [width, height] = print.sides.map(|side| (side * 1e4).round() / 1e4);
     let start = svg.find(" width=").zip(svg.find(" height=")).filter(|(width, height)| width < height);
@@ -81,7 +81,7 @@ fn png(mut scene: Scene, canvas: &Canvas) -> Result<Vec<u8>, String> {
     let scale = width / canvas.size.width;
     (scene.width, scene.height) = ((width - LESS) / scale, (height - LESS) / scale);
     scene.elements = scene.elements.into_iter().flat_map(dashes).collect();
-    let turned = take_turned(&mut scene);
+    let rotated = take_rotated_text(&mut scene);
     let is_large = 4.0 * width * height > MOST_PIXELS;
     let draw = |scene: &Scene| {
         let scale = if is_large { scale } else { 2.0 * scale };
@@ -90,8 +90,8 @@ fn png(mut scene: Scene, canvas: &Canvas) -> Result<Vec<u8>, String> {
         Image::read(&RasterBackend::new().with_scale(scale).render_scene(scene)?)
     };
     let mut image = draw(&scene)?;
-    if let Some(turned) = turned {
-        image.darken_turned(&draw(&turned)?);
+    if let Some(rotated) = rotated {
+        image.darken_rotated(&draw(&rotated)?);
     }
     let image = if is_large { image } else { image.halved() };
     image.write(canvas.print.map(|print| print.dpi))
@@ -117,7 +117,7 @@ impl Image {
     }
 
     /// Rotates dark marks on a white background by a quarter turn to the left, and adds the marks to the image.
-    fn darken_turned(&mut self, marks: &Image) {
+    fn darken_rotated(&mut self, marks: &Image) {
         for row in 0..self.height.min(marks.width) {
             for column in 0..self.width.min(marks.height) {
                 let from = (column * marks.width + marks.width - 1 - row) * marks.channels;
@@ -154,8 +154,8 @@ impl Image {
         Image { width, height, channels: 3, bytes }
     }
 
-    /// Returns the colours of the pixels as bytes.
-    fn opaque(&self) -> Vec<u8> {
+    /// Returns the red, green and blue bytes of the pixels, without opacity.
+    fn rgb(&self) -> Vec<u8> {
         self.bytes.chunks(self.channels).flat_map(|pixel| pixel[..3].to_vec()).collect()
     }
 
@@ -177,7 +177,7 @@ impl Image {
             unit: png::Unit::Meter,
         }));
         let mut writer = encoder.write_header().map_err(|error| error.to_string())?;
-        writer.write_image_data(&self.opaque()).map_err(|error| error.to_string())?;
+        writer.write_image_data(&self.rgb()).map_err(|error| error.to_string())?;
         writer.finish().map_err(|error| error.to_string())?;
         Ok(png)
     }
@@ -230,10 +230,10 @@ fn dashes(element: Primitive) -> Vec<Primitive> {
 /// of the first scene.
 ///
 /// The library draws rotated letters bold and without smooth edges. A quarter turn to the left moves the text to its place.
-fn take_turned(scene: &mut Scene) -> Option<Scene> {
-    let mut turned = Scene::new(scene.height, scene.width);
-    turned.text_color.clone_from(&scene.text_color);
-    turned.font_family.clone_from(&scene.font_family);
+fn take_rotated_text(scene: &mut Scene) -> Option<Scene> {
+    let mut rotated = Scene::new(scene.height, scene.width);
+    rotated.text_color.clone_from(&scene.text_color);
+    rotated.font_family.clone_from(&scene.font_family);
     // The offsets of nested groups.
     let mut groups = vec![(0.0, 0.0)];
     for element in &mut scene.elements {
@@ -248,7 +248,7 @@ fn take_turned(scene: &mut Scene) -> Option<Scene> {
                 if (*angle + 90.0).abs() < 1e-6 =>
             {
                 let (left, top) = groups.last().copied().unwrap_or_default();
-                turned.add(Primitive::Text {
+                rotated.add(Primitive::Text {
                     x: scene.height - (*y + top),
                     y: *x + left,
                     content: std::mem::take(content),
@@ -262,7 +262,7 @@ fn take_turned(scene: &mut Scene) -> Option<Scene> {
             _ => {}
         }
     }
-    (!turned.elements.is_empty()).then_some(turned)
+    (!rotated.elements.is_empty()).then_some(rotated)
 }
 
 /// Returns the shift of a transformation `translate(x, y)`.
@@ -301,12 +301,12 @@ mod tests {
     }
 
     #[test]
-    fn marks_are_turned_to_the_left() {
-        // Two by one pixels: dark, then white. After the turn to the left, dark is below.
+    fn marks_are_rotated_to_the_left() {
+        // Two by one pixels: dark, then white. After the rotation to the left, dark is below.
         let marks = Image { width: 2, height: 1, channels: 3, bytes: vec![0, 0, 0, 255, 255, 255] };
         let mut image = Image { width: 1, height: 2, channels: 4, bytes: vec![200; 8] };
-        image.darken_turned(&marks);
-        assert_eq!(image.opaque(), [200, 200, 200, 0, 0, 0]);
+        image.darken_rotated(&marks);
+        assert_eq!(image.rgb(), [200, 200, 200, 0, 0, 0]);
     }
 
     #[test]
@@ -320,7 +320,7 @@ mod tests {
     }
 
     #[test]
-    fn turned_text_is_taken_with_the_place_of_its_group() {
+    fn rotated_text_is_taken_with_the_place_of_its_group() {
         let text = |rotate: Option<f64>| Primitive::Text {
             x: 10.0,
             y: 20.0,
@@ -333,18 +333,20 @@ mod tests {
         };
         let mut scene = Scene::new(300.0, 200.0);
         scene.add(text(None));
-        assert!(take_turned(&mut scene).is_none());
+        assert!(take_rotated_text(&mut scene).is_none());
         scene.add(Primitive::GroupStart {
             transform: Some("translate(100,5.5)".to_owned()),
             title: None,
             extra_attrs: None,
         });
         scene.add(text(Some(-90.0)));
-        let turned = take_turned(&mut scene).unwrap();
-        assert_eq!((turned.width, turned.height, turned.elements.len()), (200.0, 300.0, 1));
-        let Primitive::Text { x, y, content, rotate: None, .. } = &turned.elements[0] else { panic!("text") };
+        let rotated = take_rotated_text(&mut scene).unwrap();
+        assert_eq!((rotated.width, rotated.height, rotated.elements.len()), (200.0, 300.0, 1));
+        let Primitive::Text { x, y, content, rotate: None, .. } = &rotated.elements[0] else {
+            panic!("text")
+        };
         assert_eq!((*x, *y, content.as_str()), (200.0 - 25.5, 110.0, "a"));
-        assert!(take_turned(&mut scene).is_none_or(|left| {
+        assert!(take_rotated_text(&mut scene).is_none_or(|left| {
             left.elements
                 .iter()
                 .all(|one| matches!(one, Primitive::Text { content, .. } if content.is_empty()))
