@@ -31,7 +31,7 @@ const THICK: f64 = 0.7;
 const LEGEND: f64 = 22.0;
 
 /// The names of the two methods, with their colours.
-const WAYS: [(&str, &str); 2] = [("derivatives", SERIES[0]), ("sample", SERIES[1])];
+const METHODS: [(&str, &str); 2] = [("derivatives", SERIES[0]), ("sample", SERIES[1])];
 
 /// A parameter with its effects on a measure: the changes of the measure for one standard deviation of the parameter.
 struct Effect {
@@ -103,10 +103,10 @@ pub(super) fn draw(
     for (line, (_, bars)) in lines.iter().enumerate() {
         let middle = frame.map_y(line as f64 + 1.0);
         let half = (frame.map_y(line as f64 + 1.0 - THICK / 2.0) - middle).min(18.0);
-        for (way, value) in bars.iter().enumerate().filter(|(_, value)| value.is_finite()) {
+        for (method, value) in bars.iter().enumerate().filter(|(_, value)| value.is_finite()) {
             let end = frame.map_x(value * label.factor);
-            let corner = (zero.min(end), middle - half + way as f64 * half);
-            ink::rectangle(&mut scene, corner, ((end - zero).abs(), half - 0.5), WAYS[way].1);
+            let corner = (zero.min(end), middle - half + method as f64 * half);
+            ink::rectangle(&mut scene, corner, ((end - zero).abs(), half - 0.5), METHODS[method].1);
         }
     }
     let (top, bottom) = (frame.map_y(lines.len() as f64 + 0.5), frame.margin_top + frame.plot_height());
@@ -121,7 +121,7 @@ fn legend(scene: &mut Scene, frame: &ComputedLayout) {
     const SIDE: f64 = 10.0;
     let mut left = frame.margin_left + 6.0;
     let top = frame.margin_top + 5.0;
-    for (name, colour) in WAYS {
+    for (name, colour) in METHODS {
         ink::rectangle(scene, (left, top), (SIDE, SIDE), colour);
         ink::text(scene, (left + SIDE + 4.0, top + SIDE - 0.5), name, TEXT, TextAnchor::Start);
         left += SIDE + 16.0 + name.chars().count() as f64 * f64::from(TEXT) * LETTER;
