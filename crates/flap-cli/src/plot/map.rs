@@ -45,9 +45,9 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     // Parameters whose values differ from line to line.
     let [free_x, free_y] = [x, y].map(|column| followed == Some(column) || axis_of(table, column).is_some());
     let grid = match (free_x, free_y) {
-        (true, true) => scattered(table, selection, color)?,
+        (true, true) => nearest_cells(table, selection, color)?,
         (true, false) => curves(table, selection, [x, y], color)?,
-        (false, true) => curves(table, selection, [y, x], color)?.turned(),
+        (false, true) => curves(table, selection, [y, x], color)?.transposed(),
         (false, false) => grid(table, selection, color)?,
     };
     let label = table.label(color);
@@ -75,7 +75,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
 
 impl Grid {
     /// Returns the grid with its axes exchanged.
-    fn turned(self) -> Grid {
+    fn transposed(self) -> Grid {
         let cells = self.cells.into_iter().map(|cell| Cell { x: cell.y, y: cell.x, ..cell });
         Grid { cells: cells.collect(), x: self.y, y: self.x }
     }
@@ -89,7 +89,7 @@ fn axis_of(table: &Table, column: usize) -> Option<&RefinedAxis> {
 /// Returns the cells of points that form no grid: every place has the colour of the nearest point.
 ///
 /// Distances along an axis are measured in cells between the values of the grid file.
-fn scattered(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Failure> {
+fn nearest_cells(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Failure> {
     let columns = [selection.columns.x, selection.columns.y];
     let [across, up] = columns.map(|column| {
         let (label, log) = (table.label(column), axis_of(table, column).is_some_and(|axis| axis.log));
@@ -99,18 +99,19 @@ fn scattered(table: &Table, selection: &Selection, color: usize) -> Result<Grid,
         Ok::<_, Failure>((places, Axis { log: log && range.0 > 0.0, ..Axis::linear(label.text(), range) }))
     });
     let ((x, across), (y, up)) = (across?, up?);
-    let mut numbers: Vec<(u64, u64)> = x.iter().zip(&y).map(|(x, y)| (x.to_bits(), y.to_bits())).collect();
-    numbers.sort_unstable();
-    if numbers.windows(2).any(|two| two[0] == two[1]) {
+    let mut keys: Vec<(u64, u64)> = x.iter().zip(&y).map(|(x, y)| (x.to_bits(), y.to_bits())).collect();
+    keys.sort_unstable();
+    if keys.windows(2).any(|two| two[0] == two[1]) {
         return Err(several_rows(table, selection));
     }
-    let points: Vec<[f64; 2]> = x.iter().zip(&y).map(|(x, y)| [share(&across, *x), share(&up, *y)]).collect();
+    let points: Vec<[f64; 2]> =
+        x.iter().zip(&y).map(|(x, y)| [fraction(&across, *x), fraction(&up, *y)]).collect();
     let (colours, factor) = (table.numbers(color)?, table.label(color).factor);
     let cells = columns.map(|column| axis_of(table, column).map_or(1.0, |axis| axis.cells as f64));
     let owners = nearest(&points, cells, RASTER);
     let cell = |rectangle: Rectangle| Cell {
-        x: rectangle.columns.map(|column| place(&across, column as f64 / RASTER[0] as f64)),
-        y: rectangle.rows.map(|row| place(&up, row as f64 / RASTER[1] as f64)),
+        x: rectangle.columns.map(|column| value_at(&across, column as f64 / RASTER[0] as f64)),
+        y: rectangle.rows.map(|row| value_at(&up, row as f64 / RASTER[1] as f64)),
         value: colours[selection.rows[rectangle.owner]] * factor,
     };
     let cells = rectangles(&owners, RASTER[0]).into_iter().map(cell).collect();
@@ -121,16 +122,16 @@ fn scattered(table: &Table, selection: &Selection, color: usize) -> Result<Grid,
 const RASTER: [usize; 2] = [720, 480];
 
 /// Returns the position of a value along an axis, from 0 to 1.
-fn share(axis: &Axis, value: f64) -> f64 {
+fn fraction(axis: &Axis, value: f64) -> f64 {
     let to = |value: f64| if axis.log { value.ln() } else { value };
     let (low, high) = (to(axis.range.0), to(axis.range.1));
     if high > low { (to(value) - low) / (high - low) } else { 0.5 }
 }
 
 /// Returns the value at a position along an axis, from 0 to 1.
-fn place(axis: &Axis, share: f64) -> f64 {
+fn value_at(axis: &Axis, fraction: f64) -> f64 {
     let (low, high) = axis.range;
-    if axis.log { low * (high / low).powf(share) } else { low + (high - low) * share }
+    if axis.log { low * (high / low).powf(fraction) } else { low + (high - low) * fraction }
 }
 
 /// A rectangle of a raster in which all places have the same nearest point. The rectangle includes the first column and
@@ -321,11 +322,11 @@ mod tests {
     }
 
     #[test]
-    fn positions_along_axes_are_shares() {
+    fn positions_along_axes_are_fractions() {
         let log = Axis { log: true, ..Axis::linear(String::new(), (1.0, 100.0)) };
-        assert!((share(&log, 10.0) - 0.5).abs() < 1e-12 && (place(&log, 0.5) - 10.0).abs() < 1e-12);
+        assert!((fraction(&log, 10.0) - 0.5).abs() < 1e-12 && (value_at(&log, 0.5) - 10.0).abs() < 1e-12);
         let linear = Axis::linear(String::new(), (40.0, 240.0));
-        assert_eq!((share(&linear, 90.0), place(&linear, 0.25)), (0.25, 90.0));
+        assert_eq!((fraction(&linear, 90.0), value_at(&linear, 0.25)), (0.25, 90.0));
     }
 
     #[test]
