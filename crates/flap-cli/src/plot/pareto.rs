@@ -151,11 +151,11 @@ fn front(points: &[(f64, f64)], aims: (Aim, Aim)) -> Vec<usize> {
     for index in order {
         let (x, y) = scores(index);
         // All earlier points are at least as good in x, and the last kept point has the best y of them.
-        let is_front = kept.last().is_none_or(|&last| {
+        let is_on_front = kept.last().is_none_or(|&last| {
             let (best_x, best_y) = scores(last);
             y > best_y || (y == best_y && x == best_x)
         });
-        if is_front {
+        if is_on_front {
             kept.push(index);
         }
     }
