@@ -127,15 +127,16 @@ fn draw_one(table: &Table, selection: &Selection, size: Size) -> Result<Scene, F
         let values = table.numbers(column)?;
         let rate = format!("{angle}_rate_rad_s");
         let rates = if let Some(column) = table.columns.iter().position(|column| column.name == rate) {
-            table.numbers(column)?.iter().map(|rate| rate.to_degrees() * 1e-3).collect()
+            let rates = table.numbers(column)?;
+            selection.rows.iter().map(|&row| rates[row].to_degrees() * 1e-3).collect()
         } else {
             console::say(&format!("the rate of the {angle} is computed from differences of its samples"));
-            rates(time, values)
+            rates(time, values, &selection.rows)
         };
         let motion: Vec<(f64, f64)> =
             selection.rows.iter().map(|&row| (time[row] * label.factor, values[row])).collect();
         let mut around: Vec<(f64, f64)> =
-            selection.rows.iter().map(|&row| (values[row], rates[row])).collect();
+            selection.rows.iter().zip(&rates).map(|(&row, &rate)| (values[row], rate)).collect();
         ticking = motion.len();
         if around.len() > MOST_POINTS {
             around.drain(..around.len() - MOST_POINTS);
@@ -266,12 +267,13 @@ fn shortened(names: &[&str], most: usize) -> Vec<String> {
         .collect()
 }
 
-/// Returns rates in degrees per millisecond, from the differences of neighbours.
-fn rates(time: &[f64], angles: &[f64]) -> Vec<f64> {
-    let last = time.len() - 1;
-    (0..time.len())
+/// Returns the rates of one motion in degrees per millisecond, from the differences of neighbours among the `rows` of the
+/// motion.
+fn rates(time: &[f64], angles: &[f64], rows: &[usize]) -> Vec<f64> {
+    let last = rows.len().saturating_sub(1);
+    (0..rows.len())
         .map(|i| {
-            let (before, after) = (i.saturating_sub(1), (i + 1).min(last));
+            let (before, after) = (rows[i.saturating_sub(1)], rows[(i + 1).min(last)]);
             (angles[after] - angles[before]) / (time[after] - time[before]) * 1e-3
         })
         .collect()
@@ -296,8 +298,19 @@ mod tests {
     fn rates_are_those_of_a_line() {
         let time: Vec<f64> = (0..5).map(|i| f64::from(i) * 1e-3).collect();
         let angles: Vec<f64> = (0..5).map(|i| 3.0 * f64::from(i)).collect();
-        for rate in rates(&time, &angles) {
+        for rate in rates(&time, &angles, &[0, 1, 2, 3, 4]) {
             assert!((rate - 3.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn rates_contain_no_differences_between_motions() {
+        let time = [0.0, 1e-3, 2e-3, 0.0, 1e-3, 2e-3];
+        let angles = [0.0, 3.0, 6.0, 50.0, 57.0, 64.0];
+        for (rows, slope) in [([0, 1, 2], 3.0), ([3, 4, 5], 7.0)] {
+            for rate in rates(&time, &angles, &rows) {
+                assert!((rate - slope).abs() < 1e-9, "{rate} {slope}");
+            }
         }
     }
 }
