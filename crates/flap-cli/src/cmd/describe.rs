@@ -36,7 +36,7 @@ pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
         usize::MAX,
         |row| {
             let place = rows.next();
-            let is_kept = filters.keep(row)?;
+            let is_kept = filters.accept(row)?;
             places.extend(place.filter(|_| is_kept));
             Ok(is_kept)
         },

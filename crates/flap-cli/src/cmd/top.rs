@@ -36,7 +36,7 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     let mut row = StringRecord::new();
     let (mut kept, mut ranked) = (0_u64, 0);
     while source.next(&mut row)? {
-        if !filters.keep(&row)? {
+        if !filters.accept(&row)? {
             continue;
         }
         kept += 1;

@@ -17,10 +17,10 @@ use crate::failure::Failure;
 use crate::table::six_digits;
 
 /// The conditions of the command line.
-pub(crate) struct Filters(Vec<Test>);
+pub(crate) struct Filters(Vec<Condition>);
 
 /// A condition on the cells of a row.
-enum Test {
+enum Condition {
     Number(Number),
     Word(Word),
     Comparison(Comparison),
@@ -96,7 +96,7 @@ struct Comparison {
 impl Filters {
     /// Parses the conditions on rows of `source`.
     pub(crate) fn of(filters: &[Filter], source: &Source) -> Result<Filters, Failure> {
-        let test = |filter: &Filter| match filter {
+        let condition = |filter: &Filter| match filter {
             Filter::Equal(name, text) => {
                 let (column, first) = (source.find(name)?, OnceCell::new());
                 let unit = source.unit(column);
@@ -104,9 +104,9 @@ impl Filters {
                 let name = source.names()[column].clone();
                 Ok(if let Some(wanted) = wanted {
                     let is_bare = text.parse::<f64>().is_ok();
-                    Test::Number(Number { column, name, unit, wanted, is_bare, first })
+                    Condition::Number(Number { column, name, unit, wanted, is_bare, first })
                 } else {
-                    Test::Word(Word { wanted: text.clone(), cells: TextColumn::new(column, &name) })
+                    Condition::Word(Word { wanted: text.clone(), cells: TextColumn::new(column, &name) })
                 })
             }
             Filter::Comparison(text) => {
@@ -118,7 +118,7 @@ impl Filters {
                 let texts = names.iter().enumerate().filter(|(_, name)| compared.is_text(name));
                 let texts = texts.map(|(column, name)| TextColumn::new(column, name)).collect();
                 let words = compared.words.into_iter().map(str::to_owned).collect();
-                Ok(Test::Comparison(Comparison {
+                Ok(Condition::Comparison(Comparison {
                     expression,
                     names,
                     units,
@@ -128,22 +128,22 @@ impl Filters {
                 }))
             }
         };
-        filters.iter().map(test).collect::<Result<_, _>>().map(Filters)
+        filters.iter().map(condition).collect::<Result<_, _>>().map(Filters)
     }
 
     /// Returns true if the row satisfies all conditions. A comparison with an empty cell is false.
-    pub(crate) fn keep(&self, row: &StringRecord) -> Result<bool, Failure> {
-        for test in &self.0 {
-            let holds = match test {
-                Test::Number(Number { column, wanted, first, .. }) => {
+    pub(crate) fn accept(&self, row: &StringRecord) -> Result<bool, Failure> {
+        for condition in &self.0 {
+            let holds = match condition {
+                Condition::Number(Number { column, wanted, first, .. }) => {
                     let value: Option<f64> = cell(row, *column).parse().ok();
                     value.is_some_and(|value| {
                         first.get_or_init(|| value);
                         is_same(value, *wanted)
                     })
                 }
-                Test::Word(Word { wanted, cells }) => cells.place(row, &[wanted]) == 0,
-                Test::Comparison(Comparison { expression, names, words, texts, first, .. }) => {
+                Condition::Word(Word { wanted, cells }) => cells.place(row, &[wanted]) == 0,
+                Condition::Comparison(Comparison { expression, names, words, texts, first, .. }) => {
                     let mut values = vec![f64::NAN; names.len()];
                     for column in expression.reads() {
                         let cell = cell(row, column);
@@ -169,17 +169,17 @@ impl Filters {
     /// Returns advice if no row satisfies the conditions: units, numbers and words of the columns.
     pub(crate) fn advice(&self) -> Vec<String> {
         let mut lines = Vec::new();
-        for test in &self.0 {
-            match test {
-                Test::Number(Number { name, unit, wanted, is_bare, first, .. }) => {
+        for condition in &self.0 {
+            match condition {
+                Condition::Number(Number { name, unit, wanted, is_bare, first, .. }) => {
                     let usual = first.get().copied().unwrap_or(f64::NAN);
                     let line = Some(*wanted)
                         .filter(|_| *is_bare)
                         .and_then(|wanted| meant(name, unit, wanted, usual));
                     lines.extend(line.or_else(|| in_unit(name, unit, usual)));
                 }
-                Test::Word(Word { cells, .. }) => lines.extend(cells.advice()),
-                Test::Comparison(Comparison { expression, names, units, texts, first, .. }) => {
+                Condition::Word(Word { cells, .. }) => lines.extend(cells.advice()),
+                Condition::Comparison(Comparison { expression, names, units, texts, first, .. }) => {
                     let values = first.get().map_or(&[][..], Vec::as_slice);
                     lines.extend(texts.iter().filter_map(TextColumn::advice));
                     for column in expression.reads() {
@@ -208,7 +208,7 @@ impl Filters {
         let mut rows = 0_u64;
         let table = source.read_kept(wanted, most, |row| {
             rows += 1;
-            self.keep(row)
+            self.accept(row)
         })?;
         if table.rows == 0 && rows > 0 {
             let failure = Failure::usage(format!("no row of {name} satisfies --where"));
