@@ -23,7 +23,7 @@ const LONGEST_BEGIN: Duration = Duration::from_secs(1);
 const LONGEST: Duration = Duration::from_secs(2);
 
 /// Largest number of points that are checked in the search for points that are not excluded.
-const MOST_LOOKED_AT: u64 = 100_000;
+const MOST_CHECKED: u64 = 100_000;
 
 /// Smallest relative error of an estimate, because the speed of a machine varies by this fraction.
 const SMALLEST_ERROR: f64 = 0.1;
@@ -37,7 +37,7 @@ pub(super) struct Trial<'a> {
     started: Instant,
     /// The time from the start to the end of the sample.
     took: Duration,
-    looked_at: u64,
+    checked: u64,
     /// True if no more points are added to the sample.
     closed: bool,
     /// Numbers of the points of the sample that are running.
@@ -65,7 +65,7 @@ impl Trial<'_> {
             plan,
             started: Instant::now(),
             took: Duration::ZERO,
-            looked_at: 0,
+            checked: 0,
             closed: false,
             running: BTreeSet::new(),
             works: Vec::new(),
@@ -146,10 +146,10 @@ impl Trial<'_> {
     }
 
     fn next(&mut self) -> Option<Point> {
-        while !self.is_over() && self.looked_at < MOST_LOOKED_AT {
-            let number = self.looked_at;
+        while !self.is_over() && self.checked < MOST_CHECKED {
+            let number = self.checked;
             let point = self.plan.point(self.index(number));
-            self.looked_at += 1;
+            self.checked += 1;
             let in_sample = !self.closed;
             match self.plan.judge(&point.values) {
                 Admission::Runs => {
@@ -176,7 +176,7 @@ impl Trial<'_> {
     /// Ends the sample if the sample is large enough, has all points, or took long enough.
     fn close(&mut self) {
         self.closed |= self.works.len() + self.running.len() >= MOST
-            || self.looked_at >= self.plan.len()
+            || self.checked >= self.plan.len()
             || self.started.elapsed() >= LONGEST_BEGIN;
     }
 
