@@ -79,7 +79,7 @@ pub struct LimitAt {
 
 /// An optimum at which one or more searches end.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Other {
+pub struct LocalOptimum {
     /// The value of the goal at this optimum.
     pub goal: f64,
     /// The varied parameters and their values.
@@ -110,7 +110,7 @@ pub struct Optimum {
     /// All conditions.
     pub limits: Vec<LimitAt>,
     /// All optima at which the searches end, beginning with the best optimum.
-    pub optima: Vec<Other>,
+    pub optima: Vec<LocalOptimum>,
     /// Number of starts from which a search ran.
     pub starts: usize,
     /// Number of points of the grid, and number of grid points that were computed.

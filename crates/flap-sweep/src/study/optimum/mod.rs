@@ -32,7 +32,7 @@ mod search;
 mod sensitivity;
 mod starts;
 
-pub use answer::{Active, Edge, LimitAt, Optimum, Other, Status};
+pub use answer::{Active, Edge, LimitAt, LocalOptimum, Optimum, Status};
 pub use front::{Front, FrontError, FrontPoint, Goal, front};
 pub use problem::{Aim, Problem, ProblemError, Which};
 pub use search::{Settings, optimise, optimise_from};

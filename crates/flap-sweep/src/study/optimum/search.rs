@@ -9,7 +9,7 @@ use std::time::Duration;
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{NoSlope, Rows as _};
 
-use super::answer::{LimitAt, Optimum, Other, Status};
+use super::answer::{LimitAt, LocalOptimum, Optimum, Status};
 use super::evaluate::{Evaluator, Trial};
 use super::problem::Problem;
 use super::refine::refine;
@@ -281,8 +281,8 @@ fn at_end(problem: &Problem, varied: &[(usize, f64)]) -> Vec<(usize, [f64; 2])> 
 }
 
 /// The distinct end points of the searches, in the given order.
-fn optima(problem: &Problem, order: &[&End]) -> Vec<Other> {
-    let mut found: Vec<(Other, &Trial)> = Vec::new();
+fn optima(problem: &Problem, order: &[&End]) -> Vec<LocalOptimum> {
+    let mut found: Vec<(LocalOptimum, &Trial)> = Vec::new();
     for end in order {
         let same = found.iter_mut().find(|(other, trial)| {
             let size = problem.size(other.goal).max(problem.size(end.trial.goal));
@@ -299,7 +299,7 @@ fn optima(problem: &Problem, order: &[&End]) -> Vec<Other> {
             continue;
         }
         let is_feasible = end.trial.excess == 0.0;
-        let other = Other { goal: end.trial.goal, varied: end.varied.clone(), is_feasible, starts: 1 };
+        let other = LocalOptimum { goal: end.trial.goal, varied: end.varied.clone(), is_feasible, starts: 1 };
         found.push((other, &end.trial));
     }
     found.into_iter().map(|(other, _)| other).collect()
