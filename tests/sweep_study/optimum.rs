@@ -9,7 +9,7 @@ use flap_sweep::grid;
 use flap_sweep::plan::Plan;
 use flap_sweep::run::{Outcome, RunOptions, rows};
 use flap_sweep::study::optimum::{
-    Aim, Edge, Goal, Optimum, Problem, Settings, Status, Which, front, optimise,
+    Aim, Edge, Goal, Optimum, Problem, ProblemPart, Settings, Status, front, optimise,
 };
 
 /// A robot whose hinge, frequency and voltage can be chosen.
@@ -86,8 +86,8 @@ fn an_optimum_and_its_multiplier_are_those_of_a_formula() {
     let refused =
         Problem::new(plan(text), "drive_voltage_pp", Aim::Largest, &[sum.to_owned()]).err().unwrap();
     assert_eq!(
-        (refused.which, refused.message.as_str()),
-        (Which::Condition(0), "`100 V` is not compared with a column")
+        (refused.part, refused.message.as_str()),
+        (ProblemPart::Condition(0), "`100 V` is not compared with a column")
     );
     let best =
         best(text, "drive_voltage_pp * drive_frequency", &[&sum.replace(" V", "").replace("3.6", "1.8")]);
@@ -328,25 +328,28 @@ fn mistakes_have_a_place_and_help() {
     let refused = |goal: &str, conditions: &[&str]| {
         let conditions: Vec<String> = conditions.iter().map(|condition| (*condition).to_owned()).collect();
         let error = Problem::new(plan(ROBOT), goal, Aim::Largest, &conditions).err().unwrap();
-        (error.which, error.message, error.help.unwrap_or_default())
+        (error.part, error.message, error.help.unwrap_or_default())
     };
-    let told = |which: Which, message: &str, help: &str| (which, message.to_owned(), help.to_owned());
+    let told = |part: ProblemPart, message: &str, help: &str| (part, message.to_owned(), help.to_owned());
     assert_eq!(
         refused("lift_mean", &[]),
-        told(Which::Goal, "unknown name `lift_mean`", "did you mean `lift_mean_mn`?")
+        told(ProblemPart::Goal, "unknown name `lift_mean`", "did you mean `lift_mean_mn`?")
     );
     assert_eq!(
         refused("lift_mean_mn", &["stroke_pp_deg < 90 deg or lift_mean_mn > 1"]),
         told(
-            Which::Condition(0),
+            ProblemPart::Condition(0),
             "a condition on measures consists of comparisons with <, <=, > or >=, joined with `and`",
             "only conditions on parameters alone can contain `or`, `not`, == or !="
         )
     );
-    assert_eq!(refused("lift_mean_mn", &["lift_mean_mn > 0", "stroke_pp_deg < 90 V"]).0, Which::Condition(1));
+    assert_eq!(
+        refused("lift_mean_mn", &["lift_mean_mn > 0", "stroke_pp_deg < 90 V"]).0,
+        ProblemPart::Condition(1)
+    );
     let preset = "preset = \"jafferis2016\"\n";
     let error = Problem::new(plan(preset), "lift_mean_mn", Aim::Largest, &[]).err().unwrap();
-    assert_eq!((error.which, error.message.as_str()), (Which::Plan, "the grid varies no parameter"));
+    assert_eq!((error.part, error.message.as_str()), (ProblemPart::Plan, "the grid varies no parameter"));
     let builds = format!(
         "{preset}[sample]\nmethod = \"sobol\"\nn = 8\n[sample.parameters]\nforce_factor = {{ relative_sd = \"5 %\" }}\n"
     );

@@ -6,7 +6,7 @@ use std::num::NonZeroUsize;
 use flap_sweep::grid;
 use flap_sweep::notation::text;
 use flap_sweep::run::Progress;
-use flap_sweep::study::optimum::{self, Aim, Optimum, Problem, ProblemError, Settings, Which};
+use flap_sweep::study::optimum::{self, Aim, Optimum, Problem, ProblemError, ProblemPart, Settings};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -65,11 +65,11 @@ pub(crate) fn optimise<'py>(
 
 /// Returns the `ValueError` for a problem with a mistake.
 fn refused(error: &ProblemError, goal: &str, is_largest: bool, conditions: &[String]) -> PyErr {
-    let place = match error.which {
-        Which::Plan => String::new(),
-        Which::Goal if is_largest => format!("maximise {goal:?}: "),
-        Which::Goal => format!("minimise {goal:?}: "),
-        Which::Condition(number) => format!("where {:?}: ", conditions[number]),
+    let place = match error.part {
+        ProblemPart::Plan => String::new(),
+        ProblemPart::Goal if is_largest => format!("maximise {goal:?}: "),
+        ProblemPart::Goal => format!("minimise {goal:?}: "),
+        ProblemPart::Condition(number) => format!("where {:?}: ", conditions[number]),
     };
     error::with_help(format!("{place}{error}"), error.help.as_ref())
 }

@@ -6,7 +6,7 @@ use std::sync::atomic::Ordering;
 
 use flap_sweep::plan::Plan;
 use flap_sweep::run::{Progress, RunOptions};
-use flap_sweep::study::optimum::{Optimum, ProblemError, Settings, Which};
+use flap_sweep::study::optimum::{Optimum, ProblemError, ProblemPart, Settings};
 
 use crate::args::OptimiseArgs;
 use crate::failure::{Exit, Failure};
@@ -16,11 +16,11 @@ use crate::{console, system};
 /// Returns the failure of a problem with a mistake in its goal, or in --minimise or --maximise.
 pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemError) -> Failure {
     let goal = |goal: &Option<String>| goal.clone().unwrap_or_default();
-    let place = match error.which {
-        Which::Plan => args.grid.display().to_string(),
-        Which::Goal if is_smallest => format!("--minimise {}", goal(&args.minimise)),
-        Which::Goal => format!("--maximise {}", goal(&args.maximise)),
-        Which::Condition(number) => {
+    let place = match error.part {
+        ProblemPart::Plan => args.grid.display().to_string(),
+        ProblemPart::Goal if is_smallest => format!("--minimise {}", goal(&args.minimise)),
+        ProblemPart::Goal => format!("--maximise {}", goal(&args.maximise)),
+        ProblemPart::Condition(number) => {
             format!("--where {}", args.conditions.get(number).map_or("", String::as_str))
         }
     };

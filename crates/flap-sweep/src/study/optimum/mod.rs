@@ -34,5 +34,5 @@ mod starts;
 
 pub use answer::{Active, Edge, LimitAt, LocalOptimum, Optimum, Status};
 pub use front::{Front, FrontError, FrontPoint, Goal, front};
-pub use problem::{Aim, Problem, ProblemError, Which};
+pub use problem::{Aim, Problem, ProblemError, ProblemPart};
 pub use search::{Settings, optimise, optimise_from};

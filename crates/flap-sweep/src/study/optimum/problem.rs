@@ -32,7 +32,7 @@ impl Aim {
 
 /// The part of a problem statement that contains a mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which {
+pub enum ProblemPart {
     /// The grid.
     Plan,
     /// The goal: the number that must be largest or smallest.
@@ -46,7 +46,7 @@ pub enum Which {
 #[error("{message}")]
 pub struct ProblemError {
     /// The part of the problem that contains the mistake.
-    pub which: Which,
+    pub part: ProblemPart,
     /// The mistake.
     pub message: String,
     /// Advice for the user, if there is advice for this mistake.
@@ -99,16 +99,16 @@ impl Problem {
         let region = Region::of(&plan).map_err(|parameter| without_bounds(&plan.parameters()[parameter]))?;
         if plan.axes().as_slice().is_empty() {
             return Err(ProblemError {
-                which: Which::Plan,
+                part: ProblemPart::Plan,
                 message: "the grid varies no parameter".to_owned(),
                 help: Some("give the smallest and the largest value of parameters under [axes]".to_owned()),
             });
         }
-        let value = parsed(&plan, goal, Which::Goal, Kind::Number)?;
+        let value = parsed(&plan, goal, ProblemPart::Goal, Kind::Number)?;
         let (mut limits, mut kept) = (Vec::new(), Vec::new());
         for (number, condition) in conditions.iter().enumerate() {
-            let which = Which::Condition(number);
-            let expression = parsed(&plan, condition, which, Kind::Condition)?;
+            let part = ProblemPart::Condition(number);
+            let expression = parsed(&plan, condition, part, Kind::Condition)?;
             let is_input = |place| plan.body().is_some_and(|body| body.has_input(place));
             let is_parameter = |place| place < plan.parameters().len() && !is_input(place);
             let is_of_parameters = expression.reads().all(is_parameter);
@@ -117,7 +117,7 @@ impl Problem {
                 None if is_of_parameters => kept.push(Condition { name: condition.clone(), expression }),
                 None => {
                     return Err(ProblemError {
-                        which,
+                        part,
                         message: "a condition on measures consists of comparisons with <, <=, > or >=, joined with `and`".to_owned(),
                         help: Some("only conditions on parameters alone can contain `or`, `not`, == or !=".to_owned()),
                     });
@@ -187,16 +187,16 @@ impl Problem {
 
 fn without_bounds(parameter: &Parameter) -> ProblemError {
     ProblemError {
-        which: Which::Plan,
+        part: ProblemPart::Plan,
         message: format!("the distribution of `{}` has no smallest and largest value", parameter.name),
         help: Some("vary it under [axes], or sample it with `from` and `to` alone".to_owned()),
     }
 }
 
 /// The parsed expression `text`, which must be of the given kind.
-fn parsed(plan: &Plan, text: &str, which: Which, wanted: Kind) -> Result<Expression, ProblemError> {
+fn parsed(plan: &Plan, text: &str, part: ProblemPart, wanted: Kind) -> Result<Expression, ProblemError> {
     let names = Names { plan };
-    let refused = |message: String, help: Option<String>| ProblemError { which, message, help };
+    let refused = |message: String, help: Option<String>| ProblemError { part, message, help };
     let unit = |name: &str| names.unit(name).ok_or_else(|| unknown(&names, name));
     let plain =
         without_units(text, unit, |error| error).map_err(|error| refused(error.message, error.help))?;
