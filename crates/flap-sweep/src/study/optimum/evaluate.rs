@@ -39,11 +39,11 @@ pub(super) struct Trial {
 impl Trial {
     /// The point with the given row of a plan that contains the problem's measures.
     pub(super) fn new(problem: &Problem, coordinates: Vec<f64>, row: Row) -> Trial {
-        let place = problem.place();
-        let known = row.status == Status::Periodic && row.measures.len() > place;
+        let goal_index = problem.goal_index();
+        let known = row.status == Status::Periodic && row.measures.len() > goal_index;
         let at = |place: usize| if known { row.measures[place] } else { f64::NAN };
-        let goal = at(place);
-        let side = |number: usize| [place + 1 + 2 * number, place + 2 + 2 * number].map(at);
+        let goal = at(goal_index);
+        let side = |number: usize| [goal_index + 1 + 2 * number, goal_index + 2 + 2 * number].map(at);
         let sides: Vec<[f64; 2]> = (0..problem.limits.len()).map(side).collect();
         let over = problem.limits.iter().zip(&sides).map(|(limit, &sides)| {
             let share = (sides[0] - sides[1]) / limit.scale(sides);
@@ -192,7 +192,7 @@ impl<'p> Evaluator<'p> {
         let Trial { coordinates, row, .. } = trial;
         let variables = &self.problem.region.variables;
         let quantities = 1 + 2 * self.problem.limits.len();
-        let first = self.problem.place() + quantities;
+        let first = self.problem.goal_index() + quantities;
         let has_row = is_sloped && row.measures.len() > first + quantities * variables.len();
         if has_row {
             self.sloped.set(self.sloped.get() + 1);

@@ -180,7 +180,7 @@ impl Problem {
 
     /// The index of the goal among the measures of rows. In the measures, the expressions of both sides of each limit
     /// follow the expression of the goal.
-    pub(super) fn place(&self) -> usize {
+    pub(super) fn goal_index(&self) -> usize {
         self.plan.rows().columns().len() + self.plan.measures().len()
     }
 }

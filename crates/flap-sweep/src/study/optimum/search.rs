@@ -221,7 +221,7 @@ fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
         LimitAt { text: limit.text.clone(), sides, excess }
     });
     let mut row = trial.row.clone();
-    row.measures.truncate(problem.place());
+    row.measures.truncate(problem.goal_index());
     let mut values = problem.measured.clone().at(varied).ok()?.point(0).values;
     set_resonance(problem, &row.measures, &mut values);
     Some(Optimum {
