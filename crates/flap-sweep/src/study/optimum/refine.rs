@@ -10,13 +10,13 @@ use super::evaluate::{Evaluator, Trial};
 use super::problem::Problem;
 use super::sensitivity::{CONVERGED, active};
 
-/// Distance that the search keeps from a limit, as a fraction of the limit's size. With this distance, the optimum
+/// Distance that the search keeps from a limit, as a fraction of the limit's size. With this clearance, the optimum
 /// satisfies the limit in spite of rounding.
-const KEPT_AWAY: f64 = 1e-6;
+const CLEARANCE: f64 = 1e-6;
 
-/// Allowed error of the distance that the search keeps from a limit, as a fraction of the limit's size. The errors of
-/// rows are about as large as this allowed error.
-const MISSED: f64 = 5e-7;
+/// Allowed error of the clearance, as a fraction of the limit's size. The errors of rows are about as large as this
+/// allowed error.
+const CLEARANCE_ERROR: f64 = 5e-7;
 
 /// The relative change of the goal below which a refinement ends.
 const SMALL_CHANGE: f64 = 1e-6;
@@ -56,21 +56,20 @@ pub(super) struct Refined {
 /// The best point that is found from `start`.
 pub(super) fn refine(points: &Evaluator<'_>, start: &[f64]) -> Refined {
     let mut best = points.with_slopes(start);
-    let no_way = start.is_empty() || best.excess.is_infinite();
-    if no_way {
+    if start.is_empty() || best.excess.is_infinite() {
         return Refined { best, is_polished: false };
     }
     if best.excess > 0.0 {
         best = approach(points, &best);
     }
-    let mut kept_away = KEPT_AWAY;
+    let mut clearance = CLEARANCE;
     for _ in 0..MOST_RUNS {
-        let (found, last) = descend(points, &best, kept_away);
+        let (found, last) = descend(points, &best, clearance);
         let gain = change(points.problem, &best, &found);
         let is_beyond = last.excess > 0.0 && change(points.problem, &found, &last) > SMALL_CHANGE;
         best = found;
         if is_beyond {
-            kept_away *= 10.0;
+            clearance *= 10.0;
         } else if gain <= SMALL_CHANGE {
             break;
         }
@@ -83,23 +82,23 @@ pub(super) fn refine(points: &Evaluator<'_>, start: &[f64]) -> Refined {
     if is_polished {
         best = pattern(points, best);
         if best.excess == 0.0 {
-            best = descend(points, &points.with_slopes(&best.coordinates), KEPT_AWAY).0;
+            best = descend(points, &points.with_slopes(&best.coordinates), CLEARANCE).0;
         }
     }
     Refined { best, is_polished }
 }
 
 /// The relative gain from one point to another point; infinite if only the second point is feasible.
-fn change(problem: &Problem, before: &Trial, behind: &Trial) -> f64 {
+fn change(problem: &Problem, before: &Trial, after: &Trial) -> f64 {
     if before.excess > 0.0 {
-        return if behind.excess < before.excess { f64::INFINITY } else { 0.0 };
+        return if after.excess < before.excess { f64::INFINITY } else { 0.0 };
     }
-    let size = problem.size(before.goal).max(problem.size(behind.goal));
-    problem.aim.sign() * (before.goal - behind.goal) / size
+    let size = problem.size(before.goal).max(problem.size(after.goal));
+    problem.aim.sign() * (before.goal - after.goal) / size
 }
 
 /// The best point and the last point of a run of sequential quadratic programming.
-fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, kept_away: f64) -> (Rc<Trial>, Rc<Trial>) {
+fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, clearance: f64) -> (Rc<Trial>, Rc<Trial>) {
     let problem = points.problem;
     let factor = problem.aim.sign() / problem.size(begin.goal);
     let best = RefCell::new(Rc::clone(begin));
@@ -122,9 +121,9 @@ fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, kept_away: f64) -> (Rc<Tri
         let constraint = |number: usize| {
             let scale = problem.limits[number].scale(begin.sides[number]);
             let [less, more] = trial.sides[number];
-            let over = kept_away - (more - less) / scale;
+            let over = clearance - (more - less) / scale;
             // slsqp ends only at points that satisfy all constraints.
-            let over = if (0.0..=MISSED).contains(&over) { 0.0 } else { over };
+            let over = if (0.0..=CLEARANCE_ERROR).contains(&over) { 0.0 } else { over };
             (over, slopes(1 + number, -1.0 / scale))
         };
         Some(Local {
@@ -157,7 +156,7 @@ fn approach(points: &Evaluator<'_>, begin: &Rc<Trial>) -> Rc<Trial> {
             let [less, more] = trial.sides[number];
             let slopes = trial.slopes.get(1 + number);
             let slopes = slopes.into_iter().flatten().map(|slope| -slope / scale).chain([-1.0]);
-            (KEPT_AWAY - (more - less) / scale - moved, slopes.collect())
+            (CLEARANCE - (more - less) / scale - moved, slopes.collect())
         };
         let mut slopes = vec![0.0; dimensions];
         slopes.push(1.0);
@@ -166,9 +165,9 @@ fn approach(points: &Evaluator<'_>, begin: &Rc<Trial>) -> Rc<Trial> {
     };
     let mut from = begin.coordinates.clone();
     let excess = begin.excess;
-    from.push(excess + KEPT_AWAY);
+    from.push(excess + CLEARANCE);
     let mut bounds = vec![(0.0, 1.0); dimensions];
-    bounds.push((-KEPT_AWAY, 2.0 * excess + 1.0));
+    bounds.push((-CLEARANCE, 2.0 * excess + 1.0));
     solve(&from, &bounds, problem.limits.len(), &local);
     best.into_inner()
 }
