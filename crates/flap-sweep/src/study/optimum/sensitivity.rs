@@ -20,7 +20,7 @@ pub(super) const CONVERGED: f64 = 0.02;
 
 /// A bound or limit that may restrict the optimum.
 #[derive(Clone, Copy)]
-enum Holder {
+enum Restriction {
     Limit(usize),
     /// The index of the variable, and a flag that is true for the largest value of the variable.
     Bound(usize, bool),
@@ -34,20 +34,21 @@ pub(super) fn active(problem: &Problem, at: &Trial, is_polished: bool) -> (Vec<A
     let limits = (0..problem.limits.len()).filter(|&number| at.margin(problem, number) < near);
     let bounds = at.coordinates.iter().enumerate().filter_map(|(number, coordinate)| {
         let is_low = *coordinate <= AT_BOUND;
-        (is_low || *coordinate >= 1.0 - AT_BOUND).then_some(Holder::Bound(number, !is_low))
+        (is_low || *coordinate >= 1.0 - AT_BOUND).then_some(Restriction::Bound(number, !is_low))
     });
-    let mut holders: Vec<Holder> = limits.map(Holder::Limit).chain(bounds).collect();
-    // The gain per coordinate; each holder has a multiplier that is the gain per unit of its distance.
+    let mut restrictions: Vec<Restriction> = limits.map(Restriction::Limit).chain(bounds).collect();
+    // The gain per coordinate; each restriction has a multiplier that is the gain per unit of its distance.
     let gain = DVector::from_iterator(goal.len(), goal.iter().map(|slope| -problem.aim.sign() * slope));
-    let inward = |holder: &Holder| match *holder {
-        Holder::Limit(number) => DVector::from_column_slice(&at.slopes[1 + number]),
-        Holder::Bound(number, is_high) => {
+    let inward = |restriction: &Restriction| match *restriction {
+        Restriction::Limit(number) => DVector::from_column_slice(&at.slopes[1 + number]),
+        Restriction::Bound(number, is_high) => {
             let side = if is_high { -1.0 } else { 1.0 };
             DVector::from_fn(goal.len(), |row, _| if row == number { side } else { 0.0 })
         }
     };
     let multipliers = loop {
-        let columns: Vec<DVector<f64>> = holders.iter().map(|holder| -inward(holder)).collect();
+        let columns: Vec<DVector<f64>> =
+            restrictions.iter().map(|restriction| -inward(restriction)).collect();
         if columns.is_empty() {
             break DVector::zeros(0);
         }
@@ -57,24 +58,26 @@ pub(super) fn active(problem: &Problem, at: &Trial, is_polished: bool) -> (Vec<A
             columns.iter().zip(&sizes).map(|(column, size)| column / *size).collect();
         let matrix = DMatrix::from_columns(&scaled);
         let found = matrix.svd(true, true).solve(&gain, 1e-9);
-        let Ok(found) = found else { break DVector::zeros(holders.len()) };
+        let Ok(found) = found else { break DVector::zeros(restrictions.len()) };
         let least = found.iter().enumerate().min_by(|one, other| one.1.total_cmp(other.1));
         match least {
             Some((place, &value)) if value < 0.0 => {
-                holders.remove(place);
+                restrictions.remove(place);
             }
             _ => break DVector::from_fn(found.len(), |row, _| found[row] / sizes[row]),
         }
     };
-    let held: DVector<f64> = holders
+    let balanced: DVector<f64> = restrictions
         .iter()
         .zip(multipliers.iter())
-        .fold(DVector::zeros(goal.len()), |sum, (holder, multiplier)| sum - inward(holder) * *multiplier);
-    let left_over = (&gain - held).amax() / problem.size(at.goal);
-    let mut active: Vec<Active> = holders
+        .fold(DVector::zeros(goal.len()), |sum, (restriction, multiplier)| {
+            sum - inward(restriction) * *multiplier
+        });
+    let left_over = (&gain - balanced).amax() / problem.size(at.goal);
+    let mut active: Vec<Active> = restrictions
         .iter()
         .zip(multipliers.iter())
-        .map(|(holder, &multiplier)| described(problem, at, *holder, multiplier))
+        .map(|(restriction, &multiplier)| described(problem, at, *restriction, multiplier))
         .collect();
     active.retain(|active| active.per_unit != 0.0);
     (active, left_over)
@@ -82,17 +85,17 @@ pub(super) fn active(problem: &Problem, at: &Trial, is_polished: bool) -> (Vec<A
 
 /// The description of an active bound or limit. `multiplier` is the gain of the goal per unit by which the limit is
 /// relaxed.
-fn described(problem: &Problem, at: &Trial, holder: Holder, multiplier: f64) -> Active {
+fn described(problem: &Problem, at: &Trial, restriction: Restriction, multiplier: f64) -> Active {
     // The change of the number itself, not the gain.
     let change = -problem.aim.sign() * multiplier;
-    let (edge, name, limit, per_unit) = match holder {
-        Holder::Limit(number) => {
+    let (edge, name, limit, per_unit) = match restriction {
+        Restriction::Limit(number) => {
             let known = &problem.limits[number];
             let [less, more] = at.sides[number];
             let (limit, side) = if known.is_upper() { (more, 1.0) } else { (less, -1.0) };
             (Edge::Limit, known.text.clone(), limit, side * change)
         }
-        Holder::Bound(number, is_high) => {
+        Restriction::Bound(number, is_high) => {
             let variable = problem.region.variables[number];
             let per_value = change / variable.slope(at.coordinates[number]);
             let name = problem.plan.parameters()[variable.parameter].name.to_owned();
