@@ -23,10 +23,10 @@ use crate::run::{RunError, RunOptions};
 ///
 /// Two ends of searches count as one optimum if they satisfy one of the pairs of limits. If the values of the goal are
 /// closer to each other, the coordinates may differ more.
-const SAME: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
+const SAME_OPTIMUM: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
 
 /// The time between two checks for a request to stop.
-const LOOK: Duration = Duration::from_millis(50);
+const STOP_CHECK: Duration = Duration::from_millis(50);
 
 /// Settings of a search.
 #[derive(Clone, Copy, Debug)]
@@ -89,8 +89,9 @@ pub fn optimise(
         return Ok(None);
     }
     let problem = &problem.sized_by(found.iter().map(|start| start.trial.goal));
-    let begin = |start: Start| Begin { coordinates: start.trial.coordinates, choice: start.choice };
-    let starts: Vec<Begin> = starts::best(problem, found, most).into_iter().map(begin).collect();
+    let start_point =
+        |start: Start| StartPoint { coordinates: start.trial.coordinates, choice: start.choice };
+    let starts: Vec<StartPoint> = starts::best(problem, found, most).into_iter().map(start_point).collect();
     let Some(ends) = refined(problem, settings, &starts, |done| stops(computed + done, all))? else {
         return Ok(None);
     };
@@ -108,18 +109,18 @@ pub fn optimise_from(
     stops: &dyn Fn(u64, u64) -> bool,
 ) -> Result<Option<Optimum>, RunError> {
     let problem = &problem.sized_by(designs.iter().map(|best| problem.value(best)));
-    let begin = |best: &&Optimum| Begin {
+    let start_point = |best: &&Optimum| StartPoint {
         coordinates: problem.region.coordinates(&best.values),
         choice: problem.region.choice(&best.values),
     };
-    let starts: Vec<Begin> = designs.iter().map(begin).collect();
+    let starts: Vec<StartPoint> = designs.iter().map(start_point).collect();
     let all = starts.len() as u64;
     let ends = refined(problem, settings, &starts, |done| stops(done, all))?;
     Ok(ends.and_then(|ends| answer(problem, &ends, 0)))
 }
 
 /// The point from which a refinement begins.
-struct Begin {
+struct StartPoint {
     coordinates: Vec<f64>,
     choice: Vec<f64>,
 }
@@ -128,7 +129,7 @@ struct Begin {
 fn refined(
     problem: &Problem,
     settings: &Settings,
-    starts: &[Begin],
+    starts: &[StartPoint],
     stops: impl Fn(u64) -> bool,
 ) -> Result<Option<Vec<End>>, RunError> {
     let (next, is_stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
@@ -156,7 +157,7 @@ fn refined(
         drop(sender);
         let mut done = 0;
         loop {
-            match receiver.recv_timeout(LOOK) {
+            match receiver.recv_timeout(STOP_CHECK) {
                 Ok((number, Ok(end))) => {
                     done += 1;
                     ends[number] = Some(end);
@@ -184,7 +185,7 @@ fn refined(
 fn end_of(
     problem: &Problem,
     options: &RunOptions,
-    start: &Begin,
+    start: &StartPoint,
     interrupted: &dyn Fn() -> bool,
 ) -> Result<End, RunError> {
     let points = Evaluator::new(problem, options, start.choice.clone(), interrupted);
@@ -289,7 +290,7 @@ fn optima(problem: &Problem, order: &[&End]) -> Vec<LocalOptimum> {
             let choice = end.trial.coordinates.len()..;
             other.is_feasible == (end.trial.excess == 0.0)
                 && other.varied[choice.clone()] == end.varied[choice]
-                && SAME.iter().any(|[numbers, coordinates]| {
+                && SAME_OPTIMUM.iter().any(|[numbers, coordinates]| {
                     (other.goal - end.trial.goal).abs() <= numbers * size
                         && starts::distance(trial, &end.trial) <= *coordinates
                 })
