@@ -16,7 +16,7 @@ use crate::run::{Outcome, RunError, RunOptions, alone};
 const STEP: f64 = 2e-3;
 
 /// The step of the differences for designs at their resonance or at hover, because the searches for both have errors.
-const STEP_OF_SEARCH: f64 = 2e-2;
+const STEP_WITH_SEARCH: f64 = 2e-2;
 
 /// A point of the region with its row.
 #[derive(Clone, Debug)]
@@ -238,7 +238,7 @@ impl<'p> Evaluator<'p> {
             std::iter::once(trial.goal).chain(trial.sides.iter().flatten().copied()).collect()
         };
         let here = quantities(trial);
-        let step = if self.problem.plan.has_search() { STEP_OF_SEARCH } else { STEP };
+        let step = if self.problem.plan.has_search() { STEP_WITH_SEARCH } else { STEP };
         for step in [step, -step] {
             let mut moved = trial.coordinates.clone();
             moved[number] += step;
