@@ -4,7 +4,7 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::{SolverSettings, all};
 use flap_sweep::grid;
 use flap_sweep::notation::value::ValueError;
-use flap_sweep::plan::gradient::{Gradient, NoShares};
+use flap_sweep::plan::gradient::{Gradient, NoDerivative};
 use flap_sweep::plan::{ChangeError, Plan, Value, with_rtol};
 
 use crate::fake::{index, plan};
@@ -80,7 +80,7 @@ fn derivatives_by_one_wing_need_a_value_of_all_wings() {
         let left = place(&plan, "left_hinge_thickness");
         plan.with_slopes(vec![left]).map(|plan| plan.gradient().map_or(0, Gradient::len) > 0)
     };
-    assert!(matches!(slopes(""), Err(ChangeError::NoShares(_, NoShares::Unset(_)))));
+    assert!(matches!(slopes(""), Err(ChangeError::NoDerivative(_, NoDerivative::Unset(_)))));
     assert_eq!(slopes("[derived]\nhinge_thickness = \"10 * hinge_stiffness\"\n"), Ok(true));
 }
 
@@ -155,12 +155,12 @@ fn derivatives_and_states_are_those_of_models_with_motions() {
         flies("output.columns = [\"lift_mean_mn\", \"cycles\"]").with_slopes(vec![stiffness]).unwrap();
     assert_eq!(slopes.gradient().map(Gradient::len), Some(1));
     for (grid, name, reason) in [
-        ("derived.hinge_stiffness = \"1e-6 * drive_frequency\"", "hinge_stiffness", NoShares::Derived),
-        ("", "lift_sign", NoShares::Choice),
+        ("derived.hinge_stiffness = \"1e-6 * drive_frequency\"", "hinge_stiffness", NoDerivative::Derived),
+        ("", "lift_sign", NoDerivative::Choice),
     ] {
         assert_eq!(
             refused(flies(grid).with_slopes(vec![place(name)])),
-            ChangeError::NoShares(name.to_owned(), reason)
+            ChangeError::NoDerivative(name.to_owned(), reason)
         );
     }
     let flag = flies("[measure]\nhigh = \"lift_mean_mn > 3\"\n[output]\ncolumns = [\"high\"]");

@@ -2,7 +2,7 @@
 
 use flap_core::parameter::Kind;
 use flap_sweep::notation::text;
-use flap_sweep::plan::gradient::NoShares;
+use flap_sweep::plan::gradient::NoDerivative;
 use flap_sweep::plan::{ChangeError, Plan};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray2};
 use pyo3::exceptions::PyValueError;
@@ -137,9 +137,9 @@ fn with_slopes(plan: Plan, names: &[String]) -> PyResult<Plan> {
         by.push(index);
     }
     plan.with_slopes(by).map_err(|error| match &error {
-        ChangeError::NoShares(_, reason) => {
+        ChangeError::NoDerivative(_, reason) => {
             let help = match reason {
-                NoShares::Unset(_) => "\nset it, as a column or as a keyword".to_owned(),
+                NoDerivative::Unset(_) => "\nset it, as a column or as a keyword".to_owned(),
                 other if other.help().is_empty() => String::new(),
                 other => format!("\n{}", other.help()),
             };

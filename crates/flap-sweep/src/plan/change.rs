@@ -8,7 +8,7 @@ use flap_core::simulate::{Gradients, Setting, SettingKind, SolverSettings};
 use super::Plan;
 use super::axes::{Along, Axes, Axis, TooManyPoints, Values};
 use super::formula::{Condition, Derived, OwnMeasure};
-use super::gradient::{self, Gradient, NoShares};
+use super::gradient::{self, Gradient, NoDerivative};
 use super::robot::Differences;
 use super::selection::{Selection, Shard};
 use super::value::Value;
@@ -53,7 +53,7 @@ pub enum ChangeError {
     NoColumn(String),
     /// Rows have no derivatives with respect to this parameter.
     #[error("`{0}` {1}")]
-    NoShares(String, NoShares),
+    NoDerivative(String, NoDerivative),
     /// The measure is a condition (true or false), not a number.
     #[error("`{0}` is true or false, and has no derivatives")]
     NoSlope(String),
@@ -149,7 +149,7 @@ impl Plan {
     /// The measures are the columns of [`Plan::with_columns`], or all measures that are numbers.
     ///
     /// # Errors
-    /// - [`ChangeError::NoShares`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives.
+    /// - [`ChangeError::NoDerivative`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives.
     /// - [`ChangeError::AtResonance`] if rows are at the resonance of each design.
     /// - [`ChangeError::NoMotions`] if the model computes only rows.
     pub fn with_slopes(mut self, by: Vec<usize>) -> Result<Plan, ChangeError> {
@@ -160,7 +160,7 @@ impl Plan {
             let standing = self.standing(parameter);
             let is_input = self.body().is_some_and(|body| body.has_input(standing));
             gradient::check(known, is_derived, is_input, self.unset(standing))
-                .map_err(|reason| ChangeError::NoShares(known.name.to_owned(), reason))?;
+                .map_err(|reason| ChangeError::NoDerivative(known.name.to_owned(), reason))?;
         }
         let models = self.rows().columns().len();
         let is_number = |of: usize| match of.checked_sub(models) {

@@ -35,7 +35,7 @@ impl Gradient {
 
 /// Reason why rows cannot have derivatives with respect to a parameter, as the end of a sentence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum NoShares {
+pub enum NoDerivative {
     /// The value of the parameter is computed by formulas.
     #[error("is derived from other parameters")]
     Derived,
@@ -59,15 +59,15 @@ fn following(others: &str) -> String {
     text::no_default(others).unwrap_or_else(|| format!("it follows {others}"))
 }
 
-impl NoShares {
+impl NoDerivative {
     /// Returns the remedy in a grid file; empty if there is no remedy.
     pub fn help(self) -> &'static str {
         match self {
-            NoShares::Derived => {
+            NoDerivative::Derived => {
                 "list these parameters instead: their derivatives include the effect of derived parameters"
             }
-            NoShares::Input | NoShares::Choice | NoShares::Whole => "",
-            NoShares::Unset(_) => "set it under [params]",
+            NoDerivative::Input | NoDerivative::Choice | NoDerivative::Whole => "",
+            NoDerivative::Unset(_) => "set it under [params]",
         }
     }
 }
@@ -75,19 +75,19 @@ impl NoShares {
 /// Checks that rows can have derivatives with respect to `parameter`.
 ///
 /// # Errors
-/// [`NoShares`] if rows cannot have derivatives with respect to the parameter.
+/// [`NoDerivative`] if rows cannot have derivatives with respect to the parameter.
 pub(crate) fn check(
     parameter: &Parameter,
     is_derived: bool,
     is_input: bool,
     follows: Option<&'static str>,
-) -> Result<(), NoShares> {
+) -> Result<(), NoDerivative> {
     match (&parameter.kind, follows) {
-        _ if is_derived => Err(NoShares::Derived),
-        _ if is_input => Err(NoShares::Input),
-        (Kind::Choice(_), _) => Err(NoShares::Choice),
-        (Kind::Number(Range::Whole(..)), _) => Err(NoShares::Whole),
-        (_, Some(follows)) => Err(NoShares::Unset(follows)),
+        _ if is_derived => Err(NoDerivative::Derived),
+        _ if is_input => Err(NoDerivative::Input),
+        (Kind::Choice(_), _) => Err(NoDerivative::Choice),
+        (Kind::Number(Range::Whole(..)), _) => Err(NoDerivative::Whole),
+        (_, Some(follows)) => Err(NoDerivative::Unset(follows)),
         _ => Ok(()),
     }
 }
