@@ -379,11 +379,11 @@ impl Plan {
         if let Some(place) = more.iter().position(|positions| !self.axes().contain(positions)) {
             return Err(ChangeError::NoPoint(self.len() + place as u64));
         }
-        Ok(self.followed_by(more))
+        Ok(self.with_added_unchecked(more))
     }
 
     /// Returns the plan with additional points at the end. Each point must be within the ranges of the axes.
-    pub(crate) fn followed_by(mut self, more: Vec<Vec<f64>>) -> Plan {
+    pub(crate) fn with_added_unchecked(mut self, more: Vec<Vec<f64>>) -> Plan {
         Arc::make_mut(&mut self.added).extend(more);
         self
     }

@@ -184,7 +184,7 @@ pub fn replay(
     let mut plan = plan.clone();
     for index in 0..done {
         if index >= plan.len() {
-            plan = plan.followed_by(refinement.next_round());
+            plan = plan.with_added_unchecked(refinement.next_round());
         }
         if index >= plan.len() {
             return Err(not_next(index));

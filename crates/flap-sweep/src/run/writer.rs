@@ -121,7 +121,7 @@ impl<'a> RowWriter<'a> {
             return false;
         }
         let before = self.plan.len();
-        self.plan = Cow::Owned(self.plan.clone().into_owned().followed_by(refinement.next_round()));
+        self.plan = Cow::Owned(self.plan.clone().into_owned().with_added_unchecked(refinement.next_round()));
         self.summary.points = self.plan.selected();
         let has_more = self.plan.len() > before;
         self.summary.refined = (!has_more).then(|| refinement.refined());
