@@ -134,7 +134,7 @@ fn solver_settings_are_those_that_a_grid_file_may_have() {
 fn derivatives_and_states_are_those_of_models_with_motions() {
     for error in [
         refused(plan(GRID).with_slopes(vec![0])),
-        refused(plan(GRID).begun_at(vec![])),
+        refused(plan(GRID).with_initial_states(vec![])),
         refused(plan(GRID).with_states()),
     ] {
         assert!(matches!(error, ChangeError::NoMotions(_)), "{error:?}");
@@ -145,9 +145,11 @@ fn derivatives_and_states_are_those_of_models_with_motions() {
     };
     let place =
         |name: &str| flies("").parameters().iter().position(|parameter| parameter.name == name).unwrap();
-    let begun = flies("axes.drive_frequency = [100, 105]").begun_at(vec![None, Some(vec![0.1; 4])]).unwrap();
+    let begun = flies("axes.drive_frequency = [100, 105]")
+        .with_initial_states(vec![None, Some(vec![0.1; 4])])
+        .unwrap();
     assert_eq!((begun.point(0).begin, begun.point(1).begin), (None, Some(vec![0.1; 4])));
-    assert_eq!(refused(flies("").begun_at(vec![])), ChangeError::States(0, 1));
+    assert_eq!(refused(flies("").with_initial_states(vec![])), ChangeError::States(0, 1));
     assert_eq!(flies("").with_states().unwrap().states().len(), 4);
 
     let stiffness = place("hinge_stiffness");

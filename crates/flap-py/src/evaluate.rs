@@ -65,7 +65,7 @@ pub(crate) fn evaluate<'py>(
         plan = with_slopes(plan, &names)?;
     }
     if let Some(states) = initial_state {
-        plan = plan.begun_at(begin::rows(&states)?).map_err(|error| refused(&error))?;
+        plan = plan.with_initial_states(begin::rows(&states)?).map_err(|error| refused(&error))?;
     }
     if return_states {
         plan = plan.with_states().map_err(|error| refused(&error))?;

@@ -187,12 +187,12 @@ impl Plan {
     /// - [`ChangeError::AtResonance`] or [`ChangeError::OfBody`] if rows are at the resonance, at hover, or have the
     ///   damping matrix.
     /// - [`ChangeError::NoMotions`] if the model computes only rows.
-    pub fn begun_at(mut self, states: Vec<Option<Vec<f64>>>) -> Result<Plan, ChangeError> {
+    pub fn with_initial_states(mut self, states: Vec<Option<Vec<f64>>>) -> Result<Plan, ChangeError> {
         self.check_motions()?;
         if states.len() as u64 != self.len() {
             return Err(ChangeError::States(states.len(), self.len()));
         }
-        self.begins = states;
+        self.initial_states = states;
         self.selection = Selection::All;
         Ok(self.without_refinement())
     }
@@ -327,7 +327,7 @@ impl Plan {
     pub(crate) fn at(mut self, varied: &[(usize, f64)]) -> Result<Plan, ChangeError> {
         let values = varied.iter().map(|(parameter, value)| (*parameter, Values::Unchecked(vec![*value])));
         self.space.axes = Axes::new(vec![Axis::new(values.collect())])?;
-        self.begins = Vec::new();
+        self.initial_states = Vec::new();
         Ok(self.with_new_axes())
     }
 
@@ -346,7 +346,7 @@ impl Plan {
         self.space.derived = Derived::default();
         self.space.conditions = Vec::new();
         self.space.resonance = None;
-        self.begins = Vec::new();
+        self.initial_states = Vec::new();
         self.with_new_axes()
     }
 

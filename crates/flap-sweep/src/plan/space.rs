@@ -33,7 +33,7 @@ pub struct Plan {
     pub(super) selection: Selection,
     pub(super) followed: Option<Along>,
     /// The initial state of each point; `None` for a motion from rest. The list is empty if all motions begin at rest.
-    pub(super) begins: Vec<Option<Vec<f64>>>,
+    pub(super) initial_states: Vec<Option<Vec<f64>>>,
     /// Names of the state's components in rows; empty if rows contain no state.
     pub(super) states: Vec<String>,
     /// Points that a refinement has added after the points of the axes. A point is given as a position along each axis.
@@ -92,7 +92,7 @@ impl Plan {
             space,
             selection: Selection::All,
             followed: None,
-            begins: Vec::new(),
+            initial_states: Vec::new(),
             states: Vec::new(),
             added: Arc::default(),
         }
@@ -276,7 +276,7 @@ impl Plan {
     /// Returns point number `index`, which must be less than [`Plan::len`].
     pub fn point(&self, index: u64) -> Point {
         let place = usize::try_from(index).unwrap_or(usize::MAX);
-        let begin = self.begins.get(place).cloned().flatten();
+        let begin = self.initial_states.get(place).cloned().flatten();
         Point { begin, ..Point::at_rest(index, self.values(index, None)) }
     }
 
