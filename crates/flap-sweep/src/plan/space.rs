@@ -280,9 +280,9 @@ impl Plan {
         Point { begin, ..Point::at_rest(index, self.values(index, None)) }
     }
 
-    /// Returns the values of point number `index` with one parameter `moved`, and the derived parameters that are
+    /// Returns the values of point number `index` with one parameter changed by `moved`, and the derived parameters that are
     /// computed from the moved parameter.
-    pub(crate) fn changed(&self, index: u64, parameter: usize, moved: impl Fn(f64) -> f64) -> Vec<f64> {
+    pub(crate) fn values_with(&self, index: u64, parameter: usize, moved: impl Fn(f64) -> f64) -> Vec<f64> {
         self.values(index, Some((parameter, &moved)))
     }
 

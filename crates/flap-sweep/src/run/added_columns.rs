@@ -66,7 +66,9 @@ fn size_at(plan: &Plan, per: Per, point: &Point, parameter: usize) -> Option<f64
 fn changed(plan: &Plan, per: Per, point: &Point, parameter: usize, share: f64) -> Vec<f64> {
     let size = size_at(plan, per, point, parameter);
     let shared = standing(plan.parameters(), &point.values, parameter);
-    plan.changed(point.index, parameter, |own| moved(if own.is_nan() { shared } else { own }, size, share))
+    plan.values_with(point.index, parameter, |own| {
+        moved(if own.is_nan() { shared } else { own }, size, share)
+    })
 }
 
 /// Returns the derivatives in the order of their columns.
