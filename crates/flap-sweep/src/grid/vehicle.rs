@@ -156,46 +156,47 @@ pub(super) fn read(
         }
     };
     let shared = base.values.len();
-    let mut own = Own {
+    let mut vehicle_reader = VehicleReader {
         vehicle: &vehicle,
         shared: base,
         settings: VehicleSettings::default(),
         problems,
-        models: reader,
+        reader,
     };
     let of_vehicle = |parameter: &Parameter| match parameter.kind {
         Kind::Following(_, follows) if parameter.default.is_nan() => Value::Follows(follows),
         _ => Value::Given(parameter.default),
     };
-    own.shared.values.extend(vehicle.parameters()[shared..].iter().map(of_vehicle));
+    vehicle_reader.shared.values.extend(vehicle.parameters()[shared..].iter().map(of_vehicle));
     if let Some(entry) = table::find(&entries, "about") {
-        own.vector(entry, |axis| format!("about_{axis}"));
+        vehicle_reader.vector(entry, |axis| format!("about_{axis}"));
     }
     if let Some(entry) = table::find(&entries, "damping") {
         match entry.value.get_ref().as_bool() {
-            Some(true) => own.settings.damping = Some(entry.key_span.clone()),
+            Some(true) => vehicle_reader.settings.damping = Some(entry.key_span.clone()),
             Some(false) => {}
             None => {
-                own.problems
+                vehicle_reader
+                    .problems
                     .report(entry.value.span(), "`damping` must be true or false")
                     .help("write damping = true for rows with the damping matrix");
             }
         }
     }
     if let Some(entry) = table::find(&entries, "trim")
-        && value::option("trim", &[HOVER], entry.value, own.problems).is_some()
+        && value::option("trim", &[HOVER], entry.value, vehicle_reader.problems).is_some()
     {
-        own.settings.trim = Some(entry.key_span.clone());
+        vehicle_reader.settings.trim = Some(entry.key_span.clone());
     }
     for name in KEYS.into_iter().filter(|key| !["about", "damping", "trim", "wings"].contains(key)) {
         if let Some(entry) = table::find(&entries, name) {
-            own.number(name, entry);
+            vehicle_reader.number(name, entry);
         }
     }
     for (index, wing) in wings.iter().enumerate() {
-        own.wing(index, wing);
+        vehicle_reader.wing(index, wing);
     }
-    let (shared, settings) = (own.shared, own.settings);
+    let (shared, settings) = (vehicle_reader.shared, vehicle_reader.settings);
     Some((Base { robot: Robot::Vehicle(vehicle), ..shared }, settings))
 }
 
@@ -312,17 +313,17 @@ fn sets(entries: &[Entry<'_>], parameter: &str) -> bool {
     params.is_some_and(|params| params.contains_key(parameter))
 }
 
-/// Values of a vehicle, to which the values of the wings are added.
-struct Own<'o> {
+/// Reader of the values of a vehicle and its wings.
+struct VehicleReader<'o> {
     vehicle: &'o Vehicle,
     /// Design of all wings, with the values of the vehicle.
     shared: Base,
     settings: VehicleSettings,
     problems: &'o mut Problems,
-    models: Reader<'o>,
+    reader: Reader<'o>,
 }
 
-impl Own<'_> {
+impl VehicleReader<'_> {
     /// Reads a parameter of the vehicle.
     fn number(&mut self, name: &str, entry: &Entry<'_>) {
         let parameters = self.vehicle.parameters();
@@ -406,7 +407,7 @@ impl Own<'_> {
             return;
         };
         let span = begin.value.span();
-        let Some(design) = self.models.base(entries, self.problems) else { return };
+        let Some(design) = self.reader.base(entries, self.problems) else { return };
         let (model, name) = (self.vehicle.model(), &self.vehicle.mounts()[index].name);
         if design.robot.name() != model.name() {
             let message = format!(
@@ -476,7 +477,7 @@ impl Own<'_> {
     /// Reads a parameter that applies to one wing only.
     fn own_parameter(&mut self, index: usize, entry: &Entry<'_>) {
         let model = self.vehicle.model();
-        let mut lookup = Lookup { simulator: model, models: self.models.models, problems: self.problems };
+        let mut lookup = Lookup { simulator: model, models: self.reader.models, problems: self.problems };
         let Some((place, _)) = lookup.parameter(entry) else { return };
         let parameter = &model.parameters()[place];
         let Some(target) = self.vehicle.own_parameter(index, parameter.name) else {
