@@ -40,7 +40,7 @@ pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Probl
     }
     let entries = table::entries(table);
     // If a key is misspelt, the report of a missing key would be misleading.
-    let complain = table::check_keys(&entries, &KEYS, "in a range", problems);
+    let has_known_keys = table::check_keys(&entries, &KEYS, "in a range", problems);
     let from = end(parameter, "from", &entries, problems);
     let to = end(parameter, "to", &entries, problems);
     let scale = match table::find(&entries, "scale") {
@@ -49,7 +49,7 @@ pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Probl
     };
     let spacing = spacing(parameter, &entries, problems);
     let missing = missing_keys(&entries);
-    if complain && !missing.is_empty() {
+    if has_known_keys && !missing.is_empty() {
         problems
             .report(axis.value.span(), format!("the range of `{}` has no {missing}", parameter.name))
             .note("ranges look like { from = 1, to = 5, n = 9 } or { from = 1, to = 5, step = 0.5 }");
@@ -129,7 +129,7 @@ fn counted(
     problems: &mut Problems,
 ) -> Option<Values> {
     let Ends { from, to, .. } = *ends;
-    if is_log && !log_ends_are_sound(ends, problems) {
+    if is_log && !check_log_ends(ends, problems) {
         return None;
     }
     if count == 1 && from != to {
@@ -160,7 +160,8 @@ fn counted(
     Some(Values::Linear { from, to, count })
 }
 
-fn log_ends_are_sound(ends: &Ends<'_, '_>, problems: &mut Problems) -> bool {
+/// Reports ends that a logarithmic range cannot have. Returns true if there is no mistake.
+fn check_log_ends(ends: &Ends<'_, '_>, problems: &mut Problems) -> bool {
     for (value, entry) in [(ends.from, ends.from_entry), (ends.to, ends.to_entry)] {
         if value == 0.0 {
             problems
@@ -183,11 +184,11 @@ fn log_ends_are_sound(ends: &Ends<'_, '_>, problems: &mut Problems) -> bool {
         return false;
     }
     let ratio = ends.to / ends.from;
-    let sound = ratio.is_normal();
-    if !sound {
+    let is_normal = ratio.is_normal();
+    if !is_normal {
         report_too_wide(ends, problems);
     }
-    sound
+    is_normal
 }
 
 fn report_too_wide(ends: &Ends<'_, '_>, problems: &mut Problems) {
