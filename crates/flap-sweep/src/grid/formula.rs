@@ -297,17 +297,17 @@ pub(super) fn read_derived(
             entries.push(entry);
         }
     }
-    let needs: Vec<Vec<usize>> =
-        formulas.iter().map(|(_, expression)| needs(expression, &formulas)).collect();
-    let order = order(&needs);
+    let dependencies: Vec<Vec<usize>> =
+        formulas.iter().map(|(_, expression)| dependencies(expression, &formulas)).collect();
+    let order = order(&dependencies);
     if order.len() < formulas.len() {
-        report_cycles(&needs, &order, &entries, problems);
+        report_cycles(&dependencies, &order, &entries, problems);
     }
     Derived::new(formulas, order)
 }
 
 /// Returns the positions of the formulas that `expression` depends on.
-fn needs(expression: &Expression, formulas: &[(usize, Expression)]) -> Vec<usize> {
+fn dependencies(expression: &Expression, formulas: &[(usize, Expression)]) -> Vec<usize> {
     expression
         .reads()
         .filter_map(|parameter| formulas.iter().position(|(derived, _)| *derived == parameter))
@@ -316,11 +316,11 @@ fn needs(expression: &Expression, formulas: &[(usize, Expression)]) -> Vec<usize
 
 /// Returns the formulas in an order in which each formula is after its dependencies. The result leaves out formulas in
 /// cycles, and formulas that depend on cycles.
-fn order(needs: &[Vec<usize>]) -> Vec<usize> {
+fn order(dependencies: &[Vec<usize>]) -> Vec<usize> {
     let mut order: Vec<usize> = Vec::new();
-    let mut waiting: Vec<usize> = (0..needs.len()).collect();
+    let mut waiting: Vec<usize> = (0..dependencies.len()).collect();
     loop {
-        let ready = |place: &usize| needs[*place].iter().all(|needed| order.contains(needed));
+        let ready = |place: &usize| dependencies[*place].iter().all(|needed| order.contains(needed));
         let (now, later): (Vec<usize>, Vec<usize>) = waiting.iter().partition(|place| ready(place));
         if now.is_empty() {
             return order;
@@ -332,21 +332,26 @@ fn order(needs: &[Vec<usize>]) -> Vec<usize> {
 
 /// Reports formulas that depend on themselves. Each cycle is reported once. `order` contains the formulas that neither
 /// are in cycles nor depend on cycles.
-fn report_cycles(needs: &[Vec<usize>], order: &[usize], entries: &[&Entry<'_>], problems: &mut Problems) {
+fn report_cycles(
+    dependencies: &[Vec<usize>],
+    order: &[usize],
+    entries: &[&Entry<'_>],
+    problems: &mut Problems,
+) {
     let mut visited: Vec<usize> = order.to_vec();
-    for start in 0..needs.len() {
+    for start in 0..dependencies.len() {
         // Follows dependencies from formula to formula until one repeats: in this path or an earlier one.
-        let mut way: Vec<usize> = Vec::new();
+        let mut chain: Vec<usize> = Vec::new();
         let mut next = Some(start);
         while let Some(place) = next.filter(|place| !visited.contains(place)) {
             visited.push(place);
-            way.push(place);
-            next = needs[place].iter().copied().find(|needed| !order.contains(needed));
+            chain.push(place);
+            next = dependencies[place].iter().copied().find(|needed| !order.contains(needed));
         }
-        let Some(begin) = way.iter().position(|place| Some(*place) == next) else {
+        let Some(begin) = chain.iter().position(|place| Some(*place) == next) else {
             continue;
         };
-        let cycle = &way[begin..];
+        let cycle = &chain[begin..];
         let closed = cycle.iter().chain(cycle.first()).map(|&place| entries[place].key);
         let path = closed.collect::<Vec<_>>().join(" from ");
         let first = entries[cycle[0]];
@@ -384,7 +389,7 @@ pub(super) fn read_measures(
 ) -> Vec<String> {
     let entries = entry.map(|entry| table::section(entry, problems)).unwrap_or_default();
     for (place, entry) in entries.iter().enumerate() {
-        if !name_is_sound(entry.key, names) {
+        if !is_valid_name(entry.key, names) {
             report_name(entry, problems);
             continue;
         }
@@ -410,12 +415,12 @@ pub(super) fn read_measures(
             }
         }
     }
-    let sound = entries.iter().filter(|entry| name_is_sound(entry.key, names));
-    sound.map(|entry| entry.key.to_owned()).collect()
+    let valid = entries.iter().filter(|entry| is_valid_name(entry.key, names));
+    valid.map(|entry| entry.key.to_owned()).collect()
 }
 
-/// Checks that `name` is allowed for a column and in expressions.
-fn name_is_sound(name: &str, names: &Names<'_>) -> bool {
+/// Returns true if `name` is allowed for a column and in expressions.
+fn is_valid_name(name: &str, names: &Names<'_>) -> bool {
     expression::is_free_name(name)
         && !is_fixed(name)
         && names.parameters.iter().all(|parameter| parameter.name != name)
