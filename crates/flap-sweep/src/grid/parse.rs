@@ -24,6 +24,35 @@ use crate::plan::{Differences, Plan, PointsFile, Source, Space, Value};
 use crate::resonance::AtResonance;
 use crate::vehicle::BodyRows;
 
+/// Reads the grid file at `path` and returns its plan, with the presets of `models`.
+///
+/// # Errors
+/// Returns an error if the file cannot be read or has mistakes.
+pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, ReadError> {
+    let file = input::open(path).map_err(|error| ReadError::Input { path: path.to_owned(), error })?;
+    read_from(file, path, models)
+}
+
+/// Reads a grid from a stream, such as stdin, and returns its plan, with the presets of `models`.
+///
+/// `name` represents the stream in messages and in sidecars. Paths in the grid are relative to the folder of `name`.
+///
+/// # Errors
+/// Returns an error if the stream cannot be read or the grid has mistakes.
+pub fn read_from(
+    source: impl io::Read,
+    name: &Path,
+    models: &[&'static dyn Simulator],
+) -> Result<Plan, ReadError> {
+    let refused = |error| ReadError::Input { path: name.to_owned(), error };
+    let bytes = input::beginning(source, MOST_BYTES).map_err(refused)?;
+    if looks_like_results(&bytes) {
+        return Err(ReadError::Results(name.to_owned()));
+    }
+    let text = input::of_bytes(bytes, MOST_BYTES).map_err(refused)?;
+    parse(&name.display().to_string(), &text, models).map_err(ReadError::Grid)
+}
+
 /// Checks the grid file `text` and returns its plan. Presets are looked up in `models`; `name` appears in messages.
 ///
 /// # Errors
@@ -43,6 +72,39 @@ pub fn parse_recorded(
     models: &[&'static dyn Simulator],
 ) -> Result<Plan, Mistakes> {
     plan(name, text, Reader { models, recorded: Some(devices) })
+}
+
+/// Reason for a missing plan.
+#[derive(Debug, thiserror::Error)]
+pub enum ReadError {
+    /// The file cannot be read as text.
+    #[error("{}", located(path, error))]
+    Input {
+        /// Path of the file.
+        path: PathBuf,
+        /// The reason.
+        #[source]
+        error: InputError,
+    },
+    /// The file contains results.
+    #[error("{} contains results and is not a grid file", .0.display())]
+    Results(PathBuf),
+    /// The text is not a valid grid. The error contains the mistakes, in the order of the file.
+    #[error("{}", one_per_line(.0))]
+    Grid(Mistakes),
+}
+
+impl ReadError {
+    /// Returns advice for the user, if there is advice for this mistake.
+    pub fn help(&self) -> Option<String> {
+        match self {
+            ReadError::Results(path) => Some(format!("did you mean `flap plot {}`?", path.display())),
+            ReadError::Input { error: InputError::TooLarge(_), .. } => {
+                Some("put long lists of points into a CSV file: [sample] with `method = \"file\"`".to_owned())
+            }
+            _ => None,
+        }
+    }
 }
 
 fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
@@ -252,41 +314,17 @@ fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>
     }
 }
 
-/// Reason for a missing plan.
-#[derive(Debug, thiserror::Error)]
-pub enum ReadError {
-    /// The file cannot be read as text.
-    #[error("{}", placed(path, error))]
-    Input {
-        /// Path of the file.
-        path: PathBuf,
-        /// The reason.
-        #[source]
-        error: InputError,
-    },
-    /// The file contains results.
-    #[error("{} contains results and is not a grid file", .0.display())]
-    Results(PathBuf),
-    /// The text is not a valid grid. The error contains the mistakes, in the order of the file.
-    #[error("{}", one_per_line(.0))]
-    Grid(Mistakes),
-}
-
-impl ReadError {
-    /// Returns advice for the user, if there is advice for this mistake.
-    pub fn help(&self) -> Option<String> {
-        match self {
-            ReadError::Results(path) => Some(format!("did you mean `flap plot {}`?", path.display())),
-            ReadError::Input { error: InputError::TooLarge(_), .. } => {
-                Some("put long lists of points into a CSV file: [sample] with `method = \"file\"`".to_owned())
-            }
-            _ => None,
-        }
-    }
+/// Returns true if a file with these first bytes is compressed, is a Parquet file, or has the header of results.
+fn looks_like_results(bytes: &[u8]) -> bool {
+    const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
+    let header = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
+    let mut columns = header.split(|byte| *byte == b',');
+    let is_table = columns.next() == Some(b"point") && columns.any(|column| column == b"status");
+    is_table || bytes.starts_with(&ZSTD) || bytes.starts_with(b"PAR1")
 }
 
 /// Returns the reason with the path, line and column, in a form that terminals show as a link.
-fn placed(path: &Path, error: &InputError) -> String {
+fn located(path: &Path, error: &InputError) -> String {
     let path = path.display();
     match error {
         InputError::NotUtf8 { byte, line, column } => {
@@ -302,42 +340,4 @@ fn one_per_line(mistakes: &Mistakes) -> String {
         lines.push(format!("and {} more", mistakes.more()));
     }
     lines.join("\n")
-}
-
-/// Reads the grid file at `path` and returns its plan, with the presets of `models`.
-///
-/// # Errors
-/// Returns an error if the file cannot be read or has mistakes.
-pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, ReadError> {
-    let file = input::open(path).map_err(|error| ReadError::Input { path: path.to_owned(), error })?;
-    read_from(file, path, models)
-}
-
-/// Reads a grid from a stream, such as stdin, and returns its plan, with the presets of `models`.
-///
-/// `name` represents the stream in messages and in sidecars. Paths in the grid are relative to the folder of `name`.
-///
-/// # Errors
-/// Returns an error if the stream cannot be read or the grid has mistakes.
-pub fn read_from(
-    source: impl io::Read,
-    name: &Path,
-    models: &[&'static dyn Simulator],
-) -> Result<Plan, ReadError> {
-    let refused = |error| ReadError::Input { path: name.to_owned(), error };
-    let bytes = input::beginning(source, MOST_BYTES).map_err(refused)?;
-    if looks_like_results(&bytes) {
-        return Err(ReadError::Results(name.to_owned()));
-    }
-    let text = input::of_bytes(bytes, MOST_BYTES).map_err(refused)?;
-    parse(&name.display().to_string(), &text, models).map_err(ReadError::Grid)
-}
-
-/// Returns true if a file with these first bytes is compressed, is a Parquet file, or has the header of results.
-fn looks_like_results(bytes: &[u8]) -> bool {
-    const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
-    let header = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
-    let mut columns = header.split(|byte| *byte == b',');
-    let is_table = columns.next() == Some(b"point") && columns.any(|column| column == b"status");
-    is_table || bytes.starts_with(&ZSTD) || bytes.starts_with(b"PAR1")
 }
