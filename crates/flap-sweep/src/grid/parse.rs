@@ -144,12 +144,13 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         mut names,
     } = read_points(&root, start, simulator, settings, reader.models, &mut problems);
     names.are_measured = true;
-    let own = formula::read_measures(table::find(&root, "measure"), &mut names, &mut problems);
+    let measure_names = formula::read_measures(table::find(&root, "measure"), &mut names, &mut problems);
     let section = table::find(&root, "gradient");
     let at_resonance = resonance.is_some();
     let gradient =
         gradient::read(section, simulator, &names, &derived, at_resonance, body.as_ref(), &mut problems);
-    let columns = names.columns.iter().map(|column| column.name.clone()).chain(own).collect::<Vec<_>>();
+    let columns =
+        names.columns.iter().map(|column| column.name.clone()).chain(measure_names).collect::<Vec<_>>();
     let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
     let refine = table::find(&root, "refine").and_then(|section| {
         let rows = refine::Rows { columns: &columns, own: &names.own, output: &output };
@@ -228,7 +229,7 @@ fn read_points<'n>(
     let derived = drafts.iter().map(|(parameter, _)| *parameter);
     let moved: Vec<usize> =
         varied.chain(derived).chain(sample::sampled(table::find(root, "sample"), simulator)).collect();
-    let means = means(&base, simulator, &moved);
+    let means = default_means(&base, simulator, &moved);
     let sample = sample::read(table::find(root, "sample"), &base, &means, &mut lookup);
     let (sampled, sample_file) = sample.map_or((None, None), |(placed, file)| (Some(placed), file));
     axes.extend(sampled);
@@ -293,7 +294,7 @@ fn read_points<'n>(
 ///
 /// An unset parameter of one wing has the value of all wings, unless this value is in `moved`: varied, sampled or
 /// derived.
-fn means(base: &Base, simulator: &dyn Simulator, moved: &[usize]) -> Vec<Value> {
+fn default_means(base: &Base, simulator: &dyn Simulator, moved: &[usize]) -> Vec<Value> {
     let mean = |index: usize| {
         let own = base.values[index];
         let shared = of_all_wings(simulator.parameters(), index);
