@@ -28,29 +28,29 @@ pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
     let LookArgs { results, filters, format, read, .. } = &args.look;
     let source = Source::open(results, read, true)?;
     let filters = Filters::of(filters, &source)?;
-    let asked = Asked::of(args, &source)?;
+    let selected = Selected::of(args, &source)?;
     // The numbers of the rows that are kept.
-    let (mut places, mut rows) = (Vec::new(), 0..);
+    let (mut row_numbers, mut rows) = (Vec::new(), 0..);
     let table = source.read_kept(
-        |column| asked.is_read[column],
+        |column| selected.is_read[column],
         usize::MAX,
         |row| {
-            let place = rows.next();
+            let number = rows.next();
             let is_kept = filters.accept(row)?;
-            places.extend(place.filter(|_| is_kept));
+            row_numbers.extend(number.filter(|_| is_kept));
             Ok(is_kept)
         },
     )?;
     if table.rows == 0 {
         return Err(args.look.no_rows(&filters));
     }
-    let description = describe(&table, &asked, args, &places)?;
+    let description = describe(&table, &selected, args, &row_numbers)?;
     console::results(&show::text(&description, *format)?)?;
     Ok(Exit::Done)
 }
 
 /// The columns that the user selected.
-struct Asked {
+struct Selected {
     status: Option<usize>,
     /// Columns with percentiles, and true if the user named these columns.
     columns: (Vec<usize>, bool),
@@ -60,42 +60,42 @@ struct Asked {
     by: Vec<usize>,
 }
 
-impl Asked {
-    fn of(args: &DescribeArgs, source: &Source) -> Result<Asked, Failure> {
+impl Selected {
+    fn of(args: &DescribeArgs, source: &Source) -> Result<Selected, Failure> {
         let find = |names: &[String]| {
             names.iter().map(|name| source.find(name.trim())).collect::<Result<Vec<usize>, Failure>>()
         };
         let status = source.position("status");
-        let behind = status.map_or(0, |status| status + 1);
+        let first_measure = status.map_or(0, |status| status + 1);
         let columns = match args.columns.as_slice() {
-            [] => ((behind..source.names().len()).collect(), false),
+            [] => ((first_measure..source.names().len()).collect(), false),
             names => (find(names)?, true),
         };
         let mut by = find(&args.by)?;
         if by.is_empty() && status.is_some() {
             by = MAIN.into_iter().filter_map(|name| source.position(name)).collect();
-            let first = Some(behind).filter(|&first| by.is_empty() && first < source.names().len());
+            let first = Some(first_measure).filter(|&first| by.is_empty() && first < source.names().len());
             by.extend(first);
         }
         let mut is_read = vec![false; source.names().len()];
-        for column in (0..behind).chain(columns.0.iter().copied()).chain(by.iter().copied()) {
+        for column in (0..first_measure).chain(columns.0.iter().copied()).chain(by.iter().copied()) {
             is_read[column] = true;
         }
-        Ok(Asked { status, columns, is_read, by })
+        Ok(Selected { status, columns, is_read, by })
     }
 }
 
 fn describe(
     table: &Table,
-    asked: &Asked,
+    selected: &Selected,
     args: &DescribeArgs,
-    places: &[u64],
+    row_numbers: &[u64],
 ) -> Result<Description, Failure> {
-    let (statuses, rows) = match asked.status {
+    let (statuses, rows) = match selected.status {
         Some(status) => statuses(table, status, args.look.all),
         None => (Vec::new(), (0..table.rows).collect()),
     };
-    let (columns, are_named) = &asked.columns;
+    let (columns, are_named) = &selected.columns;
     let (mut spreads, mut words) = (Vec::new(), Vec::new());
     for &column in columns {
         if let Cells::Numbers(numbers) = &table.columns[column].cells {
@@ -104,14 +104,14 @@ fn describe(
             words.push(Words::of(table, column, &rows)?);
         }
     }
-    if spreads.is_empty() && words.is_empty() && asked.status.is_none() {
+    if spreads.is_empty() && words.is_empty() && selected.status.is_none() {
         return Err(without_numbers(args, table));
     }
-    let axes = Axes::of(table, asked.status.unwrap_or(0));
+    let axes = Axes::of(table, selected.status.unwrap_or(0));
     let mut best = Vec::new();
-    for &column in &asked.by {
+    for &column in &selected.by {
         let aim = args.look.aim.unwrap_or_else(|| Aim::of(&table.columns[column].name));
-        let found = Best::of(table, column, aim, &rows, &axes, places)?;
+        let found = Best::of(table, column, aim, &rows, &axes, row_numbers)?;
         if found.is_none() && !args.by.is_empty() {
             return Err(args.look.without(&table.columns[column].name));
         }

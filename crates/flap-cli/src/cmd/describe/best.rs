@@ -31,11 +31,11 @@ pub(super) struct Axis {
     /// Number of different values.
     pub(super) values: usize,
     /// The smallest and the largest value; for words, the first and the last word.
-    pub(super) range: [Place; 2],
+    pub(super) range: [AxisValue; 2],
     /// The value of the axis in the best row.
-    pub(super) best: Place,
+    pub(super) best: AxisValue,
     /// The smallest and the largest value among the best tenth of the rows, or all words for a column of words.
-    pub(super) best_tenth: Vec<Place>,
+    pub(super) best_tenth: Vec<AxisValue>,
     /// True if the best value is the first or the last value of an axis with three or more numbers. False for parameters
     /// of a sample.
     pub(super) at_the_end: bool,
@@ -44,13 +44,13 @@ pub(super) struct Axis {
 /// A value of an axis.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
-pub(super) enum Place {
+pub(super) enum AxisValue {
     Number(f64),
     Word(String),
 }
 
 impl Best {
-    /// Returns the best of the given rows; `None` if no row has a value. `places` contains the number of each row of
+    /// Returns the best of the given rows; `None` if no row has a value. `row_numbers` contains the number of each row of
     /// the table in the file.
     pub(super) fn of(
         table: &Table,
@@ -58,7 +58,7 @@ impl Best {
         aim: Aim,
         rows: &[usize],
         axes: &Axes,
-        places: &[u64],
+        row_numbers: &[u64],
     ) -> Result<Option<Best>, Failure> {
         let numbers = table.numbers(column)?;
         let mut ranked: Vec<usize> = rows.iter().copied().filter(|&row| !numbers[row].is_nan()).collect();
@@ -74,7 +74,7 @@ impl Best {
             unit: described.unit.clone(),
             aim: if aim == Aim::Max { "max" } else { "min" },
             value: numbers[row],
-            point: point(table, row, places),
+            point: point(table, row, row_numbers),
             axes: (axes.listed().into_iter())
                 .map(|axis| Axis::of(table, axis, &ranked, axes.members.contains(&axis)))
                 .collect(),
@@ -83,11 +83,11 @@ impl Best {
 }
 
 /// Returns the index in the first column of results, or the number of the row in other files.
-fn point(table: &Table, row: usize, places: &[u64]) -> u64 {
+fn point(table: &Table, row: usize, row_numbers: &[u64]) -> u64 {
     let first = &table.columns[0];
     let indices = table.numbers(0).ok().filter(|_| ["point", "curve"].contains(&first.name.as_str()));
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a whole number from 0")]
-    indices.map_or(places[row], |indices| indices[row] as u64)
+    indices.map_or(row_numbers[row], |indices| indices[row] as u64)
 }
 
 impl Axis {
@@ -97,18 +97,18 @@ impl Axis {
     fn of(table: &Table, column: usize, best: &[usize], sampled: bool) -> Axis {
         let rows: Vec<usize> = (0..table.rows).collect();
         let levels = Levels::of(table, column, &rows);
-        let place = |level: usize| match &levels.values {
-            Values::Numbers(values) => Place::Number(values[level]),
-            Values::Words(words) => Place::Word(words[level].clone()),
+        let value = |level: usize| match &levels.values {
+            Values::Numbers(values) => AxisValue::Number(values[level]),
+            Values::Words(words) => AxisValue::Word(words[level].clone()),
         };
         let mut found: Vec<usize> = best.iter().map(|&row| levels.codes[row]).collect();
-        let top = found[0];
+        let best_level = found[0];
         found.sort_unstable();
         found.dedup();
         let at_the_end = match &levels.values {
             Values::Numbers(values) => {
                 found = vec![found[0], found[found.len() - 1]];
-                !sampled && Ends::of(values).contain(values[top])
+                !sampled && Ends::of(values).contain(values[best_level])
             }
             Values::Words(_) => false,
         };
@@ -117,9 +117,9 @@ impl Axis {
             name: described.name.clone(),
             unit: described.unit.clone(),
             values: levels.len(),
-            range: [place(0), place(levels.len() - 1)],
-            best: place(top),
-            best_tenth: found.into_iter().map(place).collect(),
+            range: [value(0), value(levels.len() - 1)],
+            best: value(best_level),
+            best_tenth: found.into_iter().map(value).collect(),
             at_the_end,
         }
     }

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use flap_sweep::notation::text;
 
-use super::best::{Axis, Best, Place};
+use super::best::{Axis, AxisValue, Best};
 use super::description::Description;
 use super::words::{WordCount, Words};
 use crate::args::OutputFormat;
@@ -90,16 +90,16 @@ fn best(best: &Best) -> String {
 }
 
 fn line(axis: &Axis) -> [String; 8] {
-    let number = |place: &Place| if let Place::Number(number) = place { *number } else { f64::NAN };
+    let number = |value: &AxisValue| if let AxisValue::Number(number) = value { *number } else { f64::NAN };
     let shown = Shown::of_column(&axis.name, &axis.unit, axis.range.iter().map(number));
-    let text = |place: &Place| match place {
-        Place::Number(number) => shown.number(*number),
-        Place::Word(word) => word.clone(),
+    let text = |value: &AxisValue| match value {
+        AxisValue::Number(number) => shown.number(*number),
+        AxisValue::Word(word) => word.clone(),
     };
     let tenth: Vec<String> = axis.best_tenth.iter().map(text).collect();
     let tenth = match (&axis.best, tenth.as_slice()) {
-        (Place::Number(_), [from, to]) if from != to => format!("{from} to {to}"),
-        (Place::Number(_), [one, ..]) => one.clone(),
+        (AxisValue::Number(_), [from, to]) if from != to => format!("{from} to {to}"),
+        (AxisValue::Number(_), [one, ..]) => one.clone(),
         _ => tenth.join(", "),
     };
     let [from, to] = &axis.range;
@@ -140,11 +140,11 @@ fn csv(description: &Description) -> Option<String> {
         line(["best", &best.column, "", "point", &best.point.to_string()])?;
         for axis in &best.axes {
             let [from, to] = &axis.range;
-            for (name, place) in [("from", from), ("to", to), ("best", &axis.best)] {
-                line(["best", &best.column, &axis.name, name, &exact(place)])?;
+            for (name, value) in [("from", from), ("to", to), ("best", &axis.best)] {
+                line(["best", &best.column, &axis.name, name, &exact(value)])?;
             }
-            for place in &axis.best_tenth {
-                line(["best", &best.column, &axis.name, "best_tenth", &exact(place)])?;
+            for value in &axis.best_tenth {
+                line(["best", &best.column, &axis.name, "best_tenth", &exact(value)])?;
             }
         }
     }
@@ -152,9 +152,9 @@ fn csv(description: &Description) -> Option<String> {
 }
 
 /// Returns a value as text with all digits.
-fn exact(place: &Place) -> String {
-    match place {
-        Place::Number(number) => text::float(*number),
-        Place::Word(word) => word.clone(),
+fn exact(value: &AxisValue) -> String {
+    match value {
+        AxisValue::Number(number) => text::float(*number),
+        AxisValue::Word(word) => word.clone(),
     }
 }
