@@ -181,7 +181,7 @@ fn unit<'p>(plan: &'p Plan, goal: &str) -> &'p str {
 }
 
 /// The number of searches that end at the optimum.
-fn same(best: &Optimum) -> usize {
+fn starts_at_optimum(best: &Optimum) -> usize {
     best.optima.first().map_or(0, |first| first.starts)
 }
 
@@ -206,7 +206,7 @@ fn cells(problem: &Problem, best: &Optimum) -> Vec<Vec<String>> {
     put("answer", goal(best.goal));
     let numbers = [
         ("starts", best.starts as u64),
-        ("starts_at_optimum", same(best) as u64),
+        ("starts_at_optimum", starts_at_optimum(best) as u64),
         ("points", best.points),
         ("points_computed", best.computed),
         ("rows", best.rows),
@@ -309,9 +309,9 @@ fn ends(problem: &Problem, best: &Optimum) -> String {
             let _ = writeln!(page, "{}", wrapped(&format!("  {}", active.sentence(problem.goal())), 4));
         }
     }
-    let (starts, same) = (count(best.starts as u64, "start"), same(best));
-    let end = if same == 1 { "ends" } else { "end" };
-    let _ = writeln!(page, "\n{same} of {starts} {end} at this design");
+    let (starts, at_optimum) = (count(best.starts as u64, "start"), starts_at_optimum(best));
+    let end = if at_optimum == 1 { "ends" } else { "end" };
+    let _ = writeln!(page, "\n{at_optimum} of {starts} {end} at this design");
     for other in best.optima.iter().skip(1) {
         let values = other
             .varied
