@@ -27,7 +27,7 @@ use crate::table::{Table, six_digits};
 const SMALL: f64 = 0.1;
 
 /// Fraction of the largest singular value below which a combination has no effect.
-const NOTHING: f64 = 1e-9;
+const NO_EFFECT: f64 = 1e-9;
 
 pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     let mut chosen = Chosen::new(&args.point, &args.solver)?;
@@ -184,18 +184,18 @@ fn table(found: &Effectiveness) -> String {
         let column: Vec<f64> = found.matrix.column(j).iter().copied().collect();
         let mut cells = vec![input.name.clone(), six_digits(found.values[j]), input.unit.to_owned()];
         cells.extend(column.iter().map(|slope| six_digits(tidy(*slope))));
-        cells.push(made(&column));
+        cells.push(main_effects(&column));
         matrix.row(cells);
     }
-    let combinations = found.combinations();
-    let largest = combinations.first().map_or(0.0, |strongest| strongest.size);
-    let mut strong = Table::with_headings(&["size", "inputs", "force and torque"]);
-    for combination in combinations.iter().filter(|combination| combination.size > NOTHING * largest) {
-        let inputs = named(&combination.inputs, |i| found.inputs[i].name.clone());
-        strong.row([
+    let found_combinations = found.combinations();
+    let largest = found_combinations.first().map_or(0.0, |strongest| strongest.size);
+    let mut combinations = Table::with_headings(&["size", "inputs", "force and torque"]);
+    for combination in found_combinations.iter().filter(|combination| combination.size > NO_EFFECT * largest) {
+        let inputs = largest_components(&combination.inputs, |i| found.inputs[i].name.clone());
+        combinations.row([
             six_digits(combination.size),
             inputs,
-            named(&combination.components, |i| HEADINGS[i].to_owned()),
+            largest_components(&combination.components, |i| HEADINGS[i].to_owned()),
         ]);
     }
     let width = console::width();
@@ -210,7 +210,7 @@ fn table(found: &Effectiveness) -> String {
 }
 
 /// Returns the component of force and the component of torque that an input changes most.
-fn made(column: &[f64]) -> String {
+fn main_effects(column: &[f64]) -> String {
     let largest = |from: usize| {
         let of = (from..from + 3).max_by(|&one, &other| column[one].abs().total_cmp(&column[other].abs()))?;
         let size = column.iter().fold(0.0, |one: f64, other| one.max(other.abs()));
@@ -222,7 +222,7 @@ fn made(column: &[f64]) -> String {
 }
 
 /// Returns the largest components of a vector with their names.
-fn named(shares: &[f64], name: impl Fn(usize) -> String) -> String {
+fn largest_components(shares: &[f64], name: impl Fn(usize) -> String) -> String {
     let mut places: Vec<usize> = (0..shares.len()).filter(|&i| shares[i].abs() >= SMALL).collect();
     places.sort_by(|&one, &other| shares[other].abs().total_cmp(&shares[one].abs()));
     places.iter().map(|&i| format!("{:+.2} {}", shares[i], name(i))).collect::<Vec<_>>().join(" ")

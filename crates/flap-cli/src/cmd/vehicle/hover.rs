@@ -25,7 +25,7 @@ const RESPONSE: &str = "body_response";
 
 /// Relative size below which an entry is only a rounding error: the entry divided by the largest entries of its row and
 /// column.
-const NOTHING: f64 = 1e-12;
+const ROUNDING: f64 = 1e-12;
 
 /// Returns the name and the format of an output file, before any computation.
 pub(super) fn check_output<'p>(path: &'p Path, plan: &Plan) -> Result<(&'p Path, LinearFormat), Failure> {
@@ -91,7 +91,7 @@ pub(super) fn damping_table(damping: &Matrix6<f64>) -> String {
     // Entries that vanish by symmetry are rounding beside the other entries of their row and column.
     let tidy = Matrix6::from_fn(|i, j| {
         let beside = damping.row(i).amax().min(damping.column(j).amax());
-        if damping[(i, j)].abs() <= NOTHING * beside { 0.0 } else { damping[(i, j)] }
+        if damping[(i, j)].abs() <= ROUNDING * beside { 0.0 } else { damping[(i, j)] }
     });
     let units = ["", ""].into_iter().chain(STATES[..6].iter().map(|(_, unit)| *unit));
     let mut table = Table::with_headings(&["mean", "unit", "forward", "left", "up", "roll", "pitch", "yaw"]);
@@ -136,7 +136,7 @@ pub(super) fn mode_table(model: &LinearModel) -> String {
     let limits = model.hover.residual_limits();
     let mut table = Table::with_headings(&["residual", "unit", "value", "limit"]);
     for (i, (residual, limit)) in model.hover.residual().into_iter().zip(limits).enumerate() {
-        let residual = if residual.abs() < NOTHING * limit { 0.0 } else { residual };
+        let residual = if residual.abs() < ROUNDING * limit { 0.0 } else { residual };
         table.row([
             component(i).to_owned(),
             WRENCH_UNITS[i].to_owned(),
