@@ -13,7 +13,7 @@ use tokio::time::sleep;
 use tokio_io_timeout::TimeoutStream;
 
 /// Longest time to receive the head of a request, to receive the body of a request, and between two parts of an answer.
-pub(super) const PATIENCE: Duration = Duration::from_secs(5);
+pub(super) const STEP_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Largest number of connections at the same time. Further connections wait until a connection has ended.
 const MOST_CONNECTIONS: usize = 128;
@@ -23,9 +23,9 @@ const PAUSE: Duration = Duration::from_millis(20);
 
 /// Answers connections with `routes`, until the server stops.
 pub(super) async fn serve(listener: TcpListener, routes: Router) {
-    let places = Arc::new(Semaphore::new(MOST_CONNECTIONS));
+    let permits = Arc::new(Semaphore::new(MOST_CONNECTIONS));
     loop {
-        let Ok(place) = Arc::clone(&places).acquire_owned().await else { return };
+        let Ok(permit) = Arc::clone(&permits).acquire_owned().await else { return };
         let Ok((stream, _)) = listener.accept().await else {
             sleep(PAUSE).await;
             continue;
@@ -33,12 +33,12 @@ pub(super) async fn serve(listener: TcpListener, routes: Router) {
         let service = TowerToHyperService::new(routes.clone());
         tokio::spawn(async move {
             let mut protocol = http1::Builder::new();
-            protocol.timer(TokioTimer::new()).header_read_timeout(PATIENCE);
+            protocol.timer(TokioTimer::new()).header_read_timeout(STEP_TIMEOUT);
             let mut stream = TimeoutStream::new(stream);
-            stream.set_write_timeout(Some(PATIENCE));
+            stream.set_write_timeout(Some(STEP_TIMEOUT));
             // An error in a connection affects only its browser, which repeats the request.
             let _ = protocol.serve_connection(TokioIo::new(Box::pin(stream)), service).await;
-            drop(place);
+            drop(permit);
         });
     }
 }

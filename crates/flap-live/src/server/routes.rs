@@ -12,7 +12,7 @@ use axum::routing::any;
 use tokio::time::timeout;
 
 use super::answers;
-use super::connections::PATIENCE;
+use super::connections::STEP_TIMEOUT;
 use super::state::{Kind, ServerState};
 use crate::request::Refused;
 
@@ -67,7 +67,7 @@ async fn read(headers: &HeaderMap, body: Body) -> Result<Vec<u8>, Response> {
     if length.is_some_and(|length| length > MOST_BYTES) {
         return Err(too_large());
     }
-    match timeout(PATIENCE, to_bytes(body, MOST_BYTES)).await {
+    match timeout(STEP_TIMEOUT, to_bytes(body, MOST_BYTES)).await {
         Ok(Ok(body)) => Ok(body.into()),
         Ok(Err(_)) => Err(too_large()),
         Err(_) => Err(answers::refusal(StatusCode::REQUEST_TIMEOUT, "the request was not completed in time")),
