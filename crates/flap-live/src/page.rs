@@ -30,7 +30,7 @@ fn filled(html: &str, heading: &str, style: &str, data: &str, script: &str) -> S
         match name {
             "title" => page += &escaped(heading),
             "style" => page.extend(STYLES.into_iter().chain([style]).flat_map(|text| [text, "\n"])),
-            "data" => page += &harmless(data),
+            "data" => page += &script_safe(data),
             _ => page.extend(["\"use strict\";\n", CHART_LIBRARY, "\nconst modules = {};\n", script]),
         }
         page += rest;
@@ -39,7 +39,7 @@ fn filled(html: &str, heading: &str, style: &str, data: &str, script: &str) -> S
 }
 
 /// Returns JSON that is safe in a script: without `<`, no text can end the script or start another script.
-fn harmless(json: &str) -> String {
+fn script_safe(json: &str) -> String {
     json.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }
 

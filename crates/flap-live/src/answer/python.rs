@@ -23,8 +23,8 @@ fn dictionary(grid: &str) -> Result<String, Refused> {
 
 fn table(table: &dyn TableLike) -> String {
     // Empty tables are left out.
-    let is_said = |item: &Item| item.as_table_like().is_none_or(|inner| !inner.is_empty());
-    let entries = table.iter().filter(|(_, item)| is_said(item));
+    let is_written = |item: &Item| item.as_table_like().is_none_or(|inner| !inner.is_empty());
+    let entries = table.iter().filter(|(_, item)| is_written(item));
     let entries = entries.map(|(key, entry)| format!("{}: {}", quoted(key), item(entry)));
     format!("{{{}}}", entries.collect::<Vec<_>>().join(", "))
 }
