@@ -98,7 +98,7 @@ struct Design {
 impl Design {
     fn of(point: &PointArgs, record: Option<&DriveRecord>, args: &RunArgs) -> Result<Design, Failure> {
         let chosen = Chosen::driven_by(record, point, &args.solver)?;
-        if let Some(option) = of_one_wing(args) {
+        if let Some(option) = one_wing_option(args) {
             check_one_wing(&chosen.plan, &point.what, &format!("`flap run` with {option}"))?;
         }
         deviations::warn(&deviation::of_point(&chosen.plan, &chosen.values, |parameter| {
@@ -145,7 +145,7 @@ fn trajectories(designs: &[Design], path: &Path, args: &RunArgs) -> Result<(), F
 }
 
 /// Returns an option of the command line that requires a single wing, if the user gave such an option.
-fn of_one_wing(args: &RunArgs) -> Option<&'static str> {
+fn one_wing_option(args: &RunArgs) -> Option<&'static str> {
     let options = [
         (args.trajectory.is_some(), "--trajectory"),
         (args.waveform.is_some(), "--waveform"),
@@ -181,7 +181,7 @@ fn settle(designs: &[Design], args: &RunArgs) -> Result<Exit, Failure> {
         }
     }
     for (design, _) in designs.iter().zip(&rows).filter(|(_, row)| row.status == Status::Unsettled) {
-        console::say(&longer(design, args));
+        console::say(&longer_run(design, args));
     }
     Ok(Exit::Done)
 }
@@ -202,7 +202,7 @@ fn print_rows(designs: &[Design], rows: &[Row], format: OutputFormat) -> Result<
 }
 
 /// Returns a line with the command that runs an unsettled point longer.
-fn longer(design: &Design, args: &RunArgs) -> String {
+fn longer_run(design: &Design, args: &RunArgs) -> String {
     let cycles = design.chosen.plan.solver().max_cycles;
     let PointArgs { what, point, changes } = &design.point;
     let mut command = format!("flap run {}", shell_word(what));
@@ -254,11 +254,12 @@ const NAMES: [&str; 4] = ["column", "value", "unit", "meaning"];
 /// Returns the row as a page: status and numbers of the run, and a table of the measures.
 fn page(design: &Design, row: &Row) -> String {
     let chosen = &design.chosen;
-    let course = course(row, six_digits).into_iter();
-    let course = course.filter(|(name, value)| !(*name == "error_estimate" && value.is_empty()));
-    let course =
-        course.map(|(name, value)| format!("{name} = {}", if value.is_empty() { "none" } else { &value }));
-    let mut page = format!("{}\n{}\n", design.title(), wrapped(&course.collect::<Vec<_>>().join(", "), 0));
+    let run_values = run_values(row, six_digits).into_iter();
+    let run_values = run_values.filter(|(name, value)| !(*name == "error_estimate" && value.is_empty()));
+    let run_values = run_values
+        .map(|(name, value)| format!("{name} = {}", if value.is_empty() { "none" } else { &value }));
+    let mut page =
+        format!("{}\n{}\n", design.title(), wrapped(&run_values.collect::<Vec<_>>().join(", "), 0));
     if !row.measures.is_empty() {
         page += "\n";
         page += &Table::of(&NAMES, measures(chosen, row, six_digits)).text_within(console::width());
@@ -271,15 +272,15 @@ fn cells(chosen: &Chosen, row: &Row) -> Vec<Vec<String>> {
     let columns = fixed_columns();
     let meaning =
         |name: &str| columns.iter().find(|column| column.name == name).map(|column| column.doc.clone());
-    let course = course(row, text::float)
+    let run_values = run_values(row, text::float)
         .into_iter()
         .map(|(name, value)| vec![name.to_owned(), value, String::new(), meaning(name).unwrap_or_default()]);
-    course.chain(measures(chosen, row, text::float)).collect()
+    run_values.chain(measures(chosen, row, text::float)).collect()
 }
 
 /// Returns status and numbers of a run, with the names of their columns. A number that does not apply to the run is
 /// empty.
-fn course(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 8] {
+fn run_values(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 8] {
     let number = |value: f64| if value.is_nan() { String::new() } else { number(value) };
     [
         ("status", row.status.name().to_owned()),
