@@ -37,7 +37,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
         plan = set(plan, &along, name, value)?;
     }
     if let Some(edge) = &args.edge {
-        let second = second(args, &plan, &along, edge)?;
+        let second = edge_range(args, &plan, &along, edge)?;
         return edges::run(&plan.following(along), &second, args);
     }
     if let Some(count) = args.basins {
@@ -66,7 +66,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
 fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> Result<Exit, Failure> {
     let options = RunOptions::with_threads(args.begin.work.threads);
     let summary =
-        job::run_with_progress(plan, &options, Summary::default(), &mut Nowhere, Some(&mut verdicts))?;
+        job::run_with_progress(plan, &options, Summary::default(), &mut NoOutput, Some(&mut verdicts))?;
     if args.format != OutputFormat::Table {
         print::table(args.format, &verdicts.names(), &verdicts.rows, String::new)?;
     }
@@ -79,9 +79,9 @@ fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> 
 }
 
 /// A sink that ignores the rows that it receives.
-struct Nowhere;
+struct NoOutput;
 
-impl Sink for Nowhere {
+impl Sink for NoOutput {
     fn write(&mut self, _cells: &[Cell]) -> io::Result<()> {
         Ok(())
     }
@@ -96,7 +96,7 @@ fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
     };
     // A step may be smaller than the smallest allowed value.
     let amount = |option: &str, given: &Option<String>| -> Result<Option<f64>, Failure> {
-        given.as_deref().map(|text| difference(parameter, option, text)).transpose()
+        given.as_deref().map(|text| positive_step(parameter, option, text)).transpose()
     };
     let steps =
         match [number("--from", &args.from)?, number("--to", &args.to)?, amount("--step", &args.step)?] {
@@ -112,7 +112,7 @@ fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
 }
 
 /// Returns the second parameter of edges, from the command line.
-fn second(args: &RespondArgs, plan: &Plan, along: &Along, name: &str) -> Result<EdgeRange, Failure> {
+fn edge_range(args: &RespondArgs, plan: &Plan, along: &Along, name: &str) -> Result<EdgeRange, Failure> {
     let index = point::find_parameter(plan.parameters(), name)?;
     let parameter = &plan.parameters()[index];
     let limit = |option: &str, given: &Option<String>| {
@@ -121,12 +121,12 @@ fn second(args: &RespondArgs, plan: &Plan, along: &Along, name: &str) -> Result<
     };
     let range = [limit("--edge-from", &args.edge_from)?, limit("--edge-to", &args.edge_to)?];
     let step =
-        args.edge_step.as_deref().map(|text| difference(parameter, "--edge-step", text)).transpose()?;
+        args.edge_step.as_deref().map(|text| positive_step(parameter, "--edge-step", text)).transpose()?;
     Ok(EdgeRange::new(plan, along, index, range, step)?)
 }
 
 /// Parses a step, which is more than zero.
-fn difference(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
+fn positive_step(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
     let number = units::parse_or_si(text, parameter.unit).map_err(|error| {
         let failure = Failure::usage(format!("{option} {text}: {}", error.message("the value")));
         failure.helps(error.help())

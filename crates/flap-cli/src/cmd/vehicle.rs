@@ -190,7 +190,8 @@ fn table(found: &Effectiveness) -> String {
     let found_combinations = found.combinations();
     let largest = found_combinations.first().map_or(0.0, |strongest| strongest.size);
     let mut combinations = Table::with_headings(&["size", "inputs", "force and torque"]);
-    for combination in found_combinations.iter().filter(|combination| combination.size > NO_EFFECT * largest) {
+    for combination in found_combinations.iter().filter(|combination| combination.size > NO_EFFECT * largest)
+    {
         let inputs = largest_components(&combination.inputs, |i| found.inputs[i].name.clone());
         combinations.row([
             six_digits(combination.size),
@@ -205,7 +206,7 @@ fn table(found: &Effectiveness) -> String {
         here.text_within(width),
         torque.text_within(width),
         matrix.text_within(width),
-        strong.text_within(width)
+        combinations.text_within(width)
     )
 }
 
