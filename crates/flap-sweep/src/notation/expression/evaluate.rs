@@ -14,7 +14,7 @@ pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
             Operation::Apply(function) => function(pop(&mut stack)),
             Operation::Binary(binary) => {
                 let (a, b) = pop_two(&mut stack);
-                two(binary, a, b)
+                apply_binary(binary, a, b)
             }
             Operation::Apply2(function) => {
                 let (a, b) = pop_two(&mut stack);
@@ -65,7 +65,7 @@ fn pop_two(stack: &mut Vec<f64>) -> (f64, f64) {
     (pop(stack), b)
 }
 
-fn two(binary: Binary, a: f64, b: f64) -> f64 {
+fn apply_binary(binary: Binary, a: f64, b: f64) -> f64 {
     match binary {
         Binary::Add => a + b,
         Binary::Subtract => a - b,

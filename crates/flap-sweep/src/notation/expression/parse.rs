@@ -13,7 +13,7 @@ use crate::notation::{nearest, text, units};
 const MOST_NESTED: usize = 100;
 
 /// Precedence of operators, in ascending order.
-mod power {
+mod precedence {
     pub(super) const ANY: u8 = 0;
     pub(super) const OR: u8 = 1;
     pub(super) const AND: u8 = 2;
@@ -39,7 +39,7 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operatio
         errors: Vec::new(),
         nested: 0,
     };
-    let whole = parser.whole();
+    let whole = parser.expression();
     let mut errors = parser.errors;
     match whole {
         Ok(operand) if errors.is_empty() => Ok((operand.kind.unwrap_or(Kind::Number), parser.operations)),
@@ -69,9 +69,9 @@ struct Parser<'a> {
 }
 
 impl<'a> Parser<'a> {
-    fn whole(&mut self) -> Result<Operand, ExpressionError> {
+    fn expression(&mut self) -> Result<Operand, ExpressionError> {
         self.advance()?;
-        let operand = self.operand(power::ANY)?;
+        let operand = self.operand(precedence::ANY)?;
         match self.next.0 {
             Token::End => Ok(operand),
             _ => Err(self.no_operator()),
@@ -114,13 +114,13 @@ impl<'a> Parser<'a> {
     }
 
     /// Records a mistake in an operand, so that the operand has no kind.
-    fn note(&mut self, error: ExpressionError, span: Range<usize>) -> Operand {
+    fn record(&mut self, error: ExpressionError, span: Range<usize>) -> Operand {
         self.errors.push(error);
         Operand { kind: None, span }
     }
 
     /// Records a mistake if `operand` is not of the kind `wanted`.
-    fn want(&mut self, wanted: Kind, operand: &Operand) {
+    fn check_kind(&mut self, wanted: Kind, operand: &Operand) {
         if operand.kind.is_some_and(|kind| kind != wanted) {
             self.errors.push(ExpressionError::mismatch(operand.span.clone(), wanted));
         }
@@ -137,22 +137,22 @@ impl<'a> Parser<'a> {
         while let Some((binary, binds)) = infix(&self.next.0)
             && binds >= least
         {
-            if binds == power::COMPARISON && is_comparison {
+            if binds == precedence::COMPARISON && is_comparison {
                 let error = self.error("comparisons cannot be chained");
                 return Err(error.helps("join two comparisons: 1 < x and x < 2"));
             }
-            is_comparison = binds == power::COMPARISON;
+            is_comparison = binds == precedence::COMPARISON;
             self.advance()?;
             // Equal operators associate to the left, except powers.
-            let right = self.operand(if binds == power::POWER { binds } else { binds + 1 })?;
-            left = self.joined(binary, &left, &right);
+            let right = self.operand(if binds == precedence::POWER { binds } else { binds + 1 })?;
+            left = self.combine(binary, &left, &right);
         }
         self.nested -= 1;
         Ok(left)
     }
 
-    /// Returns the result of an operator between two operands.
-    fn joined(&mut self, binary: Binary, left: &Operand, right: &Operand) -> Operand {
+    /// Adds an operator between two operands, and returns its result as an operand.
+    fn combine(&mut self, binary: Binary, left: &Operand, right: &Operand) -> Operand {
         let (wanted, kind) = match binary {
             Binary::And | Binary::Or => (Kind::Condition, Kind::Condition),
             Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide | Binary::Power => {
@@ -165,8 +165,8 @@ impl<'a> Parser<'a> {
             | Binary::Equal
             | Binary::NotEqual => (Kind::Number, Kind::Condition),
         };
-        self.want(wanted, left);
-        self.want(wanted, right);
+        self.check_kind(wanted, left);
+        self.check_kind(wanted, right);
         self.operations.push(Operation::Binary(binary));
         Operand { kind: Some(kind), span: left.span.start..right.span.end }
     }
@@ -180,12 +180,12 @@ impl<'a> Parser<'a> {
                 self.operations.push(Operation::Push(number));
                 Ok(Operand { kind: Some(Kind::Number), span })
             }
-            Token::Name("not") => self.signed(Some(|a| 1.0 - a), power::NOT, Kind::Condition),
-            Token::Sign("-") => self.signed(Some(|a: f64| -a), power::SIGN, Kind::Number),
-            Token::Sign("+") => self.signed(None, power::SIGN, Kind::Number),
+            Token::Name("not") => self.unary(Some(|a| 1.0 - a), precedence::NOT, Kind::Condition),
+            Token::Sign("-") => self.unary(Some(|a: f64| -a), precedence::SIGN, Kind::Number),
+            Token::Sign("+") => self.unary(None, precedence::SIGN, Kind::Number),
             Token::Sign("(") => {
                 self.advance()?;
-                let inner = self.operand(power::ANY)?;
+                let inner = self.operand(precedence::ANY)?;
                 let end = self.take(")", "`)`")?.end;
                 Ok(Operand { kind: inner.kind, span: span.start..end })
             }
@@ -198,7 +198,7 @@ impl<'a> Parser<'a> {
     }
 
     /// Parses the operand of a unary operator.
-    fn signed(
+    fn unary(
         &mut self,
         function: Option<fn(f64) -> f64>,
         binds: u8,
@@ -206,7 +206,7 @@ impl<'a> Parser<'a> {
     ) -> Result<Operand, ExpressionError> {
         let (_, sign) = self.advance()?;
         let operand = self.operand(binds)?;
-        self.want(kind, &operand);
+        self.check_kind(kind, &operand);
         self.operations.extend(function.map(Operation::Apply));
         Ok(Operand { kind: Some(kind), span: sign.start..operand.span.end })
     }
@@ -221,9 +221,9 @@ impl<'a> Parser<'a> {
             Some(Meaning::OfChoice(place, numbers)) => (Kind::Number, Operation::ReadOf(place, numbers)),
             Some(Meaning::Choice(place, options)) => return self.choice(name, span, place, options),
             Some(Meaning::Unset(follows, designs)) => {
-                return Ok(self.note(unset(name, follows, &designs, &span), span));
+                return Ok(self.record(unset(name, follows, &designs, &span), span));
             }
-            None => return Ok(self.note(self.unknown(name, &span), span)),
+            None => return Ok(self.record(self.unknown(name, &span), span)),
         };
         self.operations.push(operation);
         Ok(Operand { kind: Some(kind), span })
@@ -253,7 +253,7 @@ impl<'a> Parser<'a> {
             let first = options.first().copied().unwrap_or_default();
             let message = format!("`{name}` is a choice between options, not a number");
             let help = format!("compare it with an option: {name} == '{first}'");
-            return Ok(self.note(ExpressionError::new(span.clone(), message).helps(help), span));
+            return Ok(self.record(ExpressionError::new(span.clone(), message).helps(help), span));
         };
         self.advance()?;
         let (token, text_span) = self.advance()?;
@@ -264,7 +264,7 @@ impl<'a> Parser<'a> {
         let span = span.start..text_span.end;
         let Some(index) = options.iter().position(|option| *option == text) else {
             let error = ExpressionError::new(text_span, format!("`{name}` has no option `{text}`"));
-            return Ok(self.note(error.helps(nearest_or_all(text, options, "options")), span));
+            return Ok(self.record(error.helps(nearest_or_all(text, options, "options")), span));
         };
         self.operations.push(Operation::Read(place));
         self.operations.push(Operation::Push(index as f64));
@@ -288,8 +288,8 @@ impl<'a> Parser<'a> {
             if count > 0 {
                 self.take(",", "`,` or `)`")?;
             }
-            let argument = self.operand(power::ANY)?;
-            self.want(Kind::Number, &argument);
+            let argument = self.operand(precedence::ANY)?;
+            self.check_kind(Kind::Number, &argument);
             count += 1;
             // Applied pairwise, as the arguments are read.
             if let (Function::Many(function), 2..) = (function, count) {
@@ -342,19 +342,19 @@ fn unset(name: &str, follows: &str, designs: &str, span: &Range<usize>) -> Expre
 /// Returns the binary operator of `token`, and its precedence.
 fn infix(token: &Token<'_>) -> Option<(Binary, u8)> {
     Some(match token {
-        Token::Name("or") => (Binary::Or, power::OR),
-        Token::Name("and") => (Binary::And, power::AND),
-        Token::Sign("<") => (Binary::Less, power::COMPARISON),
-        Token::Sign("<=") => (Binary::LessOrEqual, power::COMPARISON),
-        Token::Sign(">") => (Binary::Greater, power::COMPARISON),
-        Token::Sign(">=") => (Binary::GreaterOrEqual, power::COMPARISON),
-        Token::Sign("==") => (Binary::Equal, power::COMPARISON),
-        Token::Sign("!=") => (Binary::NotEqual, power::COMPARISON),
-        Token::Sign("+") => (Binary::Add, power::SUM),
-        Token::Sign("-") => (Binary::Subtract, power::SUM),
-        Token::Sign("*") => (Binary::Multiply, power::PRODUCT),
-        Token::Sign("/") => (Binary::Divide, power::PRODUCT),
-        Token::Sign("^") => (Binary::Power, power::POWER),
+        Token::Name("or") => (Binary::Or, precedence::OR),
+        Token::Name("and") => (Binary::And, precedence::AND),
+        Token::Sign("<") => (Binary::Less, precedence::COMPARISON),
+        Token::Sign("<=") => (Binary::LessOrEqual, precedence::COMPARISON),
+        Token::Sign(">") => (Binary::Greater, precedence::COMPARISON),
+        Token::Sign(">=") => (Binary::GreaterOrEqual, precedence::COMPARISON),
+        Token::Sign("==") => (Binary::Equal, precedence::COMPARISON),
+        Token::Sign("!=") => (Binary::NotEqual, precedence::COMPARISON),
+        Token::Sign("+") => (Binary::Add, precedence::SUM),
+        Token::Sign("-") => (Binary::Subtract, precedence::SUM),
+        Token::Sign("*") => (Binary::Multiply, precedence::PRODUCT),
+        Token::Sign("/") => (Binary::Divide, precedence::PRODUCT),
+        Token::Sign("^") => (Binary::Power, precedence::POWER),
         _ => return None,
     })
 }
