@@ -36,8 +36,8 @@ arms = ["axis", "printed"]
         .parameters()
         .iter()
         .map(|(_, values)| match values {
-            Values::Sampled { design, distribution, .. } => {
-                assert_eq!((design.method(), design.count()), (Method::LatinHypercube, 100));
+            Values::Sampled { sample, distribution, .. } => {
+                assert_eq!((sample.method(), sample.count()), (Method::LatinHypercube, 100));
                 distribution
             }
             other => panic!("{other:?}"),

@@ -262,15 +262,15 @@ fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
 fn samples(plan: &Plan) -> String {
     let mut text = String::new();
     for (number, axis) in plan.axes().as_slice().iter().enumerate() {
-        if let Some((_, Values::Sampled { design, .. } | Values::Correlated { design, .. })) =
+        if let Some((_, Values::Sampled { sample, .. } | Values::Correlated { sample, .. })) =
             axis.parameters().first()
         {
-            let method = match design.method() {
+            let method = match sample.method() {
                 Method::Sobol => "scrambled Sobol' sequence",
                 Method::LatinHypercube => "Latin hypercube",
                 Method::Random => "random points",
             };
-            let _ = write!(text, "\naxis {}: {method}, seed {}\n", number + 1, design.seed());
+            let _ = write!(text, "\naxis {}: {method}, seed {}\n", number + 1, sample.seed());
         }
     }
     if let Some(file) = plan.points_file() {

@@ -17,7 +17,7 @@ use super::lookup::Lookup;
 use super::table::{self, Entry};
 use super::value;
 use crate::plan::axes::{Axis, Values};
-use crate::plan::sample::{Design, Method};
+use crate::plan::sample::{Method, SamplePoints};
 use crate::plan::{PointsFile, Robot, Value};
 
 pub(super) const KEYS: [&str; 5] = ["method", "n", "seed", "of", "parameters"];
@@ -78,19 +78,19 @@ pub(super) fn read(
         .iter()
         .filter_map(|entry| lookup.parameter(entry).map(|(index, parameter)| (index, parameter, entry)))
         .collect();
-    if let Some((.., entry)) = found.get(Design::MAX_DIMENSIONS) {
-        let most = Design::MAX_DIMENSIONS;
+    if let Some((.., entry)) = found.get(SamplePoints::MAX_DIMENSIONS) {
+        let most = SamplePoints::MAX_DIMENSIONS;
         lookup.report(entry.key_span.clone(), format!("a sample has at most {most} parameters"));
         return None;
     }
-    let design = Arc::new(Design::new(method, seed.unwrap_or(0), count.unwrap_or(1), found.len()));
+    let sample = Arc::new(SamplePoints::new(method, seed.unwrap_or(0), count.unwrap_or(1), found.len()));
     let mut axis = Vec::new();
     let mut keys = Vec::new();
     let mut with_units = Vec::new();
     for (dimension, (index, parameter, entry)) in found.into_iter().enumerate() {
         let distribution = distribution::read(parameter, means[index], entry, lookup.problems);
         let values = distribution.map_or_else(axes::none, |distribution| Values::Sampled {
-            design: Arc::clone(&design),
+            sample: Arc::clone(&sample),
             dimension,
             distribution,
         });
@@ -134,8 +134,8 @@ fn of_device(
         return None;
     }
     let errors = base.uncertainty.errors();
-    if errors.is_empty() || errors.len() > Design::MAX_DIMENSIONS {
-        let most = Design::MAX_DIMENSIONS;
+    if errors.is_empty() || errors.len() > SamplePoints::MAX_DIMENSIONS {
+        let most = SamplePoints::MAX_DIMENSIONS;
         let (message, help) = if errors.is_empty() {
             let help = "write `hinge_stiffness = { value = \"2.1 uN*m/rad\", sd = \"0.1 uN*m/rad\" }` under [params] of the device";
             ("no parameter of the device has a standard error".to_owned(), help)
@@ -150,10 +150,10 @@ fn of_device(
     }
     // Contradicting correlations are reported at their positions.
     let factor = base.uncertainty.factor()?;
-    let design = Arc::new(Design::new(method, seed, count, errors.len()));
+    let sample = Arc::new(SamplePoints::new(method, seed, count, errors.len()));
     let axis = errors.iter().zip(factor).filter_map(|(&(index, sd), weights)| {
         let mean = base.values[index].given()?;
-        Some((index, Values::Correlated { design: Arc::clone(&design), mean, sd, weights }))
+        Some((index, Values::Correlated { sample: Arc::clone(&sample), mean, sd, weights }))
     });
     let axis: Vec<_> = axis.collect();
     let (keys, with_units) = (vec![of.key_span.clone(); axis.len()], vec![None; axis.len()]);
@@ -168,7 +168,7 @@ fn count(section: &Entry<'_>, entries: &[Entry<'_>], problems: &mut Problems) ->
             .help("`n` is the number of points: write `n = 1000`");
         return None;
     };
-    value::count("n", Design::MAX_POINTS, entry.value, problems)
+    value::count("n", SamplePoints::MAX_POINTS, entry.value, problems)
 }
 
 /// Returns the seed, if the section has a seed.

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use super::sample::{Design, Distribution, normal_quantile};
+use super::sample::{Distribution, SamplePoints, normal_quantile};
 
 /// Values of one parameter along an axis, in SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,7 @@ pub enum Values {
     /// Points of a sample along one of its dimensions.
     Sampled {
         /// Points of the sample, which are the same for all parameters of the sample.
-        design: Arc<Design>,
+        sample: Arc<SamplePoints>,
         /// The dimension.
         dimension: usize,
         /// Distribution that maps the coordinate to the parameter.
@@ -53,7 +53,7 @@ pub enum Values {
     /// Points of a sample of correlated normal distributions.
     Correlated {
         /// Points of the sample, which are the same for all parameters of the sample.
-        design: Arc<Design>,
+        sample: Arc<SamplePoints>,
         /// Mean.
         mean: f64,
         /// Standard deviation.
@@ -70,7 +70,7 @@ impl Values {
         match self {
             Values::List(list) | Values::Unchecked(list) => list.len() as u64,
             Values::Linear { count, .. } | Values::Step { count, .. } | Values::Log { count, .. } => *count,
-            Values::Sampled { design, .. } | Values::Correlated { design, .. } => design.count(),
+            Values::Sampled { sample, .. } | Values::Correlated { sample, .. } => sample.count(),
         }
     }
 
@@ -90,11 +90,11 @@ impl Values {
                 _ if index + 1 == count => to,
                 _ => decimal(from + (to - from) * index as f64 / (count - 1) as f64, from),
             },
-            Values::Sampled { ref design, dimension, ref distribution } => {
-                distribution.quantile(design.coordinate(index, dimension))
+            Values::Sampled { ref sample, dimension, ref distribution } => {
+                distribution.quantile(sample.coordinate(index, dimension))
             }
-            Values::Correlated { ref design, mean, sd, ref weights } => {
-                let normal = |dimension| normal_quantile(design.coordinate(index, dimension));
+            Values::Correlated { ref sample, mean, sd, ref weights } => {
+                let normal = |dimension| normal_quantile(sample.coordinate(index, dimension));
                 let number: f64 =
                     weights.iter().enumerate().map(|(dimension, weight)| weight * normal(dimension)).sum();
                 mean + sd * number

@@ -1,6 +1,6 @@
 //! Samples of a design space: points that are spread over the design space at random or more evenly.
 //!
-//! A [`Design`] spreads points over the unit cube, and a [`Distribution`] maps each coordinate to a parameter. Any
+//! A [`SamplePoints`] spreads points over the unit cube, and a [`Distribution`] maps each coordinate to a parameter. Any
 //! point is computed in constant time and depends only on the seed and on the index of the point.
 
 use rand::rngs::ChaCha8Rng;
@@ -29,7 +29,7 @@ pub enum Method {
 
 /// Points that are spread over the unit cube.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Design {
+pub struct SamplePoints {
     seed: u64,
     count: u64,
     kind: Kind,
@@ -43,16 +43,16 @@ enum Kind {
     Random,
 }
 
-impl Design {
+impl SamplePoints {
     /// Largest number of points: 2^32.
     pub const MAX_POINTS: u64 = 1 << 32;
 
     /// Largest number of dimensions.
     pub const MAX_DIMENSIONS: usize = sobol::DIRECTIONS.len() + 1;
 
-    /// Returns `count` points in `dimensions` dimensions; at most [`Design::MAX_POINTS`] and
-    /// [`Design::MAX_DIMENSIONS`].
-    pub fn new(method: Method, seed: u64, count: u64, dimensions: usize) -> Design {
+    /// Returns `count` points in `dimensions` dimensions; at most [`SamplePoints::MAX_POINTS`] and
+    /// [`SamplePoints::MAX_DIMENSIONS`].
+    pub fn new(method: Method, seed: u64, count: u64, dimensions: usize) -> SamplePoints {
         let kind = match method {
             Method::Sobol => Kind::Sobol((0..dimensions).map(|d| Sobol::new(d, key(seed, d))).collect()),
             Method::LatinHypercube => {
@@ -61,7 +61,7 @@ impl Design {
             }
             Method::Random => Kind::Random,
         };
-        Design { seed, count, kind }
+        SamplePoints { seed, count, kind }
     }
 
     /// Returns the method.

@@ -11,7 +11,7 @@ use flap_core::simulate::{Row, Status};
 use nalgebra::{DMatrix, DVector};
 
 use crate::notation::text;
-use crate::plan::sample::{Design, Distribution, Method};
+use crate::plan::sample::{Distribution, Method, SamplePoints};
 use crate::plan::{ChangeError, Plan};
 use crate::run::{Outcome, Progress, RunError, RunOptions, rows};
 use crate::vehicle::control::{COMPONENTS, Input, because, places};
@@ -421,10 +421,10 @@ fn check(plan: &Plan, inputs: &[MapInput], samples: u32) -> Result<(), WrenchMap
 
 /// Returns the parameters of the inputs, each with the values of the parameter at the samples.
 fn sampled(inputs: &[MapInput], samples: u32) -> Vec<(usize, Vec<f64>)> {
-    let design = Design::new(Method::Sobol, SEED, samples.into(), inputs.len());
+    let sample = SamplePoints::new(Method::Sobol, SEED, samples.into(), inputs.len());
     let values = |dimension: usize, input: &MapInput| {
         let distribution = Distribution::Uniform { from: input.from, to: input.to };
-        let coordinates = (0..design.count()).map(|index| design.coordinate(index, dimension));
+        let coordinates = (0..sample.count()).map(|index| sample.coordinate(index, dimension));
         coordinates.map(|coordinate| distribution.quantile(coordinate)).collect()
     };
     inputs.iter().enumerate().map(|(place, input)| (input.parameter, values(place, input))).collect()

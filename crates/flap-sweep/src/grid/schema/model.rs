@@ -14,7 +14,7 @@ use crate::grid::{gradient, output, range, resonance};
 use crate::notation::text;
 use crate::notation::units::prefixed;
 use crate::plan::axes::Axes;
-use crate::plan::sample::Design;
+use crate::plan::sample::SamplePoints;
 use crate::resonance::{DRIVE_FREQUENCY, measures};
 use crate::table::layout::{Fixed, RUN};
 
@@ -307,7 +307,7 @@ fn sample(parameters: &Value) -> Value {
     keys.extend(FILE_KEYS.iter().filter(|key| !SAMPLE_KEYS.contains(key)));
     let properties = sections::properties(keys, |key| match key {
         "method" => sections::choice("The method that spreads the points over the design space.", &METHODS),
-        "n" => sections::count("Number of points.", Design::MAX_POINTS),
+        "n" => sections::count("Number of points.", SamplePoints::MAX_POINTS),
         "seed" => json!({
             "description": "Seed of the random points: another seed gives other points. Default: 0.",
             "type": "integer", "minimum": 0,
@@ -331,7 +331,7 @@ fn sample(parameters: &Value) -> Value {
         "else": {"required": ["parameters"]},
     });
     table["properties"]["parameters"]["minProperties"] = json!(1);
-    table["properties"]["parameters"]["maxProperties"] = json!(Design::MAX_DIMENSIONS);
+    table["properties"]["parameters"]["maxProperties"] = json!(SamplePoints::MAX_DIMENSIONS);
     table
 }
 

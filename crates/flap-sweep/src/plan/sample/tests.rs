@@ -1,12 +1,12 @@
 use super::sobol::Sobol;
 use super::*;
 
-fn design(method: Method, count: u64, dimensions: usize) -> Design {
-    Design::new(method, 7, count, dimensions)
+fn sample(method: Method, count: u64, dimensions: usize) -> SamplePoints {
+    SamplePoints::new(method, 7, count, dimensions)
 }
 
-fn coordinates(design: &Design, dimension: usize) -> Vec<f64> {
-    (0..design.count()).map(|index| design.coordinate(index, dimension)).collect()
+fn coordinates(sample: &SamplePoints, dimension: usize) -> Vec<f64> {
+    (0..sample.count()).map(|index| sample.coordinate(index, dimension)).collect()
 }
 
 /// Digits times 2^32 by `scipy.stats.qmc.Sobol(128, scramble=False, bits=32)`, SciPy 1.17.1.
@@ -35,19 +35,19 @@ fn sobol_points_before_scrambling_are_those_of_scipy() {
 /// over the first two dimensions also contains one point. Scrambling preserves this property.
 #[test]
 fn scrambled_sobol_points_are_as_even_as_plain_ones() {
-    let design = design(Method::Sobol, 1 << 32, 128);
+    let sample = sample(Method::Sobol, 1 << 32, 128);
     for dimension in [0, 1, 2, 50, 127] {
         for power in [1, 4, 10] {
             let count = 1_u64 << power;
             let mut intervals: Vec<u64> =
-                (0..count).map(|index| interval(design.coordinate(index, dimension), count)).collect();
+                (0..count).map(|index| interval(sample.coordinate(index, dimension), count)).collect();
             intervals.sort_unstable();
             assert!(intervals.iter().copied().eq(0..count), "dimension {dimension}, {count} points");
         }
     }
     for (wide, high) in [(1, 64), (2, 32), (8, 8), (32, 2)] {
         let place = |index| {
-            let (x, y) = (design.coordinate(index, 0), design.coordinate(index, 1));
+            let (x, y) = (sample.coordinate(index, 0), sample.coordinate(index, 1));
             interval(x, wide) * high + interval(y, high)
         };
         let mut boxes: Vec<u64> = (0..64).map(place).collect();
@@ -59,8 +59,8 @@ fn scrambled_sobol_points_are_as_even_as_plain_ones() {
 /// The error of a mean is smaller than for random points, whose error would be 0.29 / sqrt(4096) = 0.0045.
 #[test]
 fn scrambled_sobol_points_integrate() {
-    let design = design(Method::Sobol, 4096, 5);
-    let product = |index| (0..5).map(|dimension| 2.0 * design.coordinate(index, dimension)).product::<f64>();
+    let sample = sample(Method::Sobol, 4096, 5);
+    let product = |index| (0..5).map(|dimension| 2.0 * sample.coordinate(index, dimension)).product::<f64>();
     let mean = (0..4096).map(product).sum::<f64>() / 4096.0;
     assert!((mean - 1.0).abs() < 2e-3, "{mean}");
 }
@@ -72,10 +72,10 @@ fn interval(coordinate: f64, count: u64) -> u64 {
 #[test]
 fn each_interval_of_a_latin_hypercube_has_one_point() {
     for count in [1, 2, 3, 8, 100, 1000] {
-        let design = design(Method::LatinHypercube, count, 3);
+        let sample = sample(Method::LatinHypercube, count, 3);
         for dimension in 0..3 {
             let mut intervals: Vec<u64> =
-                coordinates(&design, dimension).into_iter().map(|c| interval(c, count)).collect();
+                coordinates(&sample, dimension).into_iter().map(|c| interval(c, count)).collect();
             assert!(count < 8 || !intervals.is_sorted(), "{count} points in order");
             intervals.sort_unstable();
             assert!(intervals.into_iter().eq(0..count), "{count} points, dimension {dimension}");
@@ -88,8 +88,8 @@ fn each_interval_of_a_latin_hypercube_has_one_point() {
 fn latin_hypercubes_are_shuffled_fairly() {
     let mut counts = std::collections::BTreeMap::new();
     for seed in 0..6000 {
-        let design = Design::new(Method::LatinHypercube, seed, 3, 1);
-        let order: Vec<u64> = coordinates(&design, 0).into_iter().map(|c| interval(c, 3)).collect();
+        let sample = SamplePoints::new(Method::LatinHypercube, seed, 3, 1);
+        let order: Vec<u64> = coordinates(&sample, 0).into_iter().map(|c| interval(c, 3)).collect();
         *counts.entry(order).or_insert(0_i32) += 1;
     }
     assert_eq!(counts.len(), 6);
@@ -101,9 +101,9 @@ fn latin_hypercubes_are_shuffled_fairly() {
 #[test]
 fn dimensions_are_independent() {
     for method in [Method::Sobol, Method::LatinHypercube, Method::Random] {
-        let design = design(method, 4096, 3);
+        let sample = sample(method, 4096, 3);
         for (a, b) in [(0, 1), (1, 2), (0, 2)] {
-            let centred = |dimension| coordinates(&design, dimension).into_iter().map(|c| c - 0.5);
+            let centred = |dimension| coordinates(&sample, dimension).into_iter().map(|c| c - 0.5);
             let covariance = centred(a).zip(centred(b)).map(|(a, b)| a * b).sum::<f64>() / 4096.0;
             assert!((covariance * 12.0).abs() < 0.06, "{method:?} {a} {b} {covariance}");
         }
@@ -116,9 +116,9 @@ fn samples_are_reproducible() {
     let known = [(Method::Sobol, SOBOL), (Method::LatinHypercube, LATIN_HYPERCUBE), (Method::Random, RANDOM)];
     for (method, expected) in known {
         let found = [(0, 0), (1, 0), (99, 0), (99, 1)]
-            .map(|(index, dimension)| design(method, 100, 2).coordinate(index, dimension));
+            .map(|(index, dimension)| sample(method, 100, 2).coordinate(index, dimension));
         assert_eq!(found, expected, "{method:?}");
-        let other = Design::new(method, 8, 100, 2);
+        let other = SamplePoints::new(method, 8, 100, 2);
         assert_ne!(other.coordinate(0, 0), expected[0], "{method:?}");
     }
 }
@@ -134,9 +134,9 @@ const RANDOM: [f64; 4] =
 fn the_ends_are_never_met() {
     for method in [Method::Sobol, Method::LatinHypercube, Method::Random] {
         for count in [1, 2, 1 << 32] {
-            let design = design(method, count, 2);
+            let sample = sample(method, count, 2);
             for index in (0..count).step_by(1 << 22) {
-                let coordinate = design.coordinate(index, 1);
+                let coordinate = sample.coordinate(index, 1);
                 assert!(coordinate > 0.0 && coordinate < 1.0, "{method:?} {index} of {count}: {coordinate}");
             }
         }
