@@ -14,7 +14,7 @@ use flap_sweep::plan::uncertainty::Correlation;
 use flap_sweep::plan::{Plan, Value};
 use toml_edit::DocumentMut;
 
-use crate::request::{Along, By, Design, MOST_ROWS, Number, Refused};
+use crate::request::{By, Design, MOST_ROWS, Number, Refused, XAxis};
 
 /// The sections of the opened file that every grid of the page keeps; the other sections are about points and files.
 const KEPT: [&str; 4] = ["vehicle", "derived", "where", "measure"];
@@ -95,7 +95,7 @@ impl Opened {
     pub(crate) fn grid(
         &self,
         design: &Design,
-        x: Option<&Along>,
+        x: Option<&XAxis>,
         by: Option<&By>,
     ) -> Result<String, Refused> {
         let rows = x.map_or(1, |x| x.n as usize) * by.map_or(1, |by| by.values.len());
@@ -120,7 +120,7 @@ impl Opened {
             let values: Vec<String> = values.iter().map(number).collect();
             let _ = writeln!(page, "{} = [{}]", key(name), values.join(", "));
         }
-        if let Some(Along { name, from, to, n }) = x {
+        if let Some(XAxis { name, from, to, n }) = x {
             let (from, to) = (number(from), number(to));
             let _ = writeln!(page, "{} = {{ from = {from}, to = {to}, n = {n} }}", key(name));
         }

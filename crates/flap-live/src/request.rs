@@ -22,7 +22,7 @@ pub(crate) enum Number {
 /// The parameter along the horizontal axis: `n` values from the first to the last, evenly spaced.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub(crate) struct Along {
+pub(crate) struct XAxis {
     pub(crate) name: String,
     pub(crate) from: Number,
     pub(crate) to: Number,
@@ -50,7 +50,7 @@ pub(crate) struct RequestOrder {
 pub(crate) struct FamilyRequest {
     #[serde(default)]
     pub(crate) design: Design,
-    pub(crate) x: Along,
+    pub(crate) x: XAxis,
     pub(crate) by: Option<By>,
 }
 
@@ -78,7 +78,7 @@ pub(crate) struct MotionRequest {
 pub(crate) struct HysteresisRequest {
     #[serde(default)]
     pub(crate) design: Design,
-    pub(crate) x: Along,
+    pub(crate) x: XAxis,
 }
 
 /// A request for a text that the user can save.
@@ -87,7 +87,7 @@ pub(crate) struct SaveRequest {
     pub(crate) kind: SaveKind,
     #[serde(default)]
     pub(crate) design: Design,
-    pub(crate) x: Option<Along>,
+    pub(crate) x: Option<XAxis>,
     pub(crate) by: Option<By>,
     /// True for the response to a parameter along x that rises and falls, false for the rows of a sweep.
     #[serde(default)]

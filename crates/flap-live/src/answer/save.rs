@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::context::AnswerContext;
 use super::python;
-use crate::request::{Along, Refused, SaveKind, SaveRequest};
+use crate::request::{Refused, SaveKind, SaveRequest, XAxis};
 
 /// A text, and the name of the file in which the user saves the text.
 #[derive(Serialize)]
@@ -35,13 +35,13 @@ pub(crate) fn save(context: &AnswerContext<'_>, request: &SaveRequest) -> Result
         (SaveKind::Grid, None) => {
             Saved { name: "family.toml", text: format!("# flap sweep family.toml --out family.csv\n{text}") }
         }
-        (SaveKind::Grid, Some(Along { name, .. })) => {
+        (SaveKind::Grid, Some(XAxis { name, .. })) => {
             let command = format!("flap respond response.toml --along {name} --out response.csv");
             Saved { name: "response.toml", text: format!("# {command}\n{text}") }
         }
         (SaveKind::Device, _) => Saved { name: "design.toml", text: device(&plan)? },
         (SaveKind::Python, None) => Saved { name: "family.py", text: python::sweep(&text)? },
-        (SaveKind::Python, Some(Along { name, .. })) => {
+        (SaveKind::Python, Some(XAxis { name, .. })) => {
             Saved { name: "response.py", text: python::respond(&text, name)? }
         }
     })
