@@ -28,7 +28,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
         return Err(selection.no_numbers(table, column));
     };
     let designs: usize = found.counts.iter().sum();
-    console::say(&told(&table.columns[column].name, designs, &found, &label));
+    console::say(&sentence(&table.columns[column].name, designs, &found, &label));
 
     let mut notes = selection.notes.clone();
     notes.push(format!("{designs} designs"));
@@ -83,7 +83,7 @@ fn marks(scene: &mut Scene, frame: &ComputedLayout, found: &Histogram, label: &L
 }
 
 /// Returns the percentiles as a sentence.
-fn told(name: &str, designs: usize, found: &Histogram, label: &Label) -> String {
+fn sentence(name: &str, designs: usize, found: &Histogram, label: &Label) -> String {
     let parts: Vec<String> = (MARKED.iter().zip(found.marked))
         .map(|(percent, value)| format!("{percent} % below {}", shown(value, label)))
         .collect();
