@@ -175,7 +175,7 @@ impl Filters {
                     let usual = first.get().copied().unwrap_or(f64::NAN);
                     let line = Some(*wanted)
                         .filter(|_| *is_bare)
-                        .and_then(|wanted| meant(name, unit, wanted, usual));
+                        .and_then(|wanted| prefix_question(name, unit, wanted, usual));
                     lines.extend(line.or_else(|| in_unit(name, unit, usual)));
                 }
                 Condition::Word(Word { cells, .. }) => lines.extend(cells.advice()),
@@ -223,7 +223,7 @@ impl Filters {
 
 /// Returns a question for the user if a number without a unit may lack the prefix of the unit. `usual` is a typical
 /// number of the column.
-pub(crate) fn meant(name: &str, unit: &str, wanted: f64, usual: f64) -> Option<String> {
+pub(crate) fn prefix_question(name: &str, unit: &str, wanted: f64, usual: f64) -> Option<String> {
     let meant = units::meant(wanted, usual, unit).filter(|meant| *meant != wanted)?;
     let text = shown_in(meant, unit);
     Some(format!("a number without a unit is in {unit}: did you mean --where {name}='{text}'?"))

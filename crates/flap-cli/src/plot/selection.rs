@@ -3,7 +3,7 @@
 use super::kind::{self, Columns};
 use super::request::Request;
 use super::scale;
-use super::slices::{self, Taken};
+use super::slices::{self, ChosenValue};
 use crate::args::{Aim, Filter, PictureKind};
 use crate::console;
 use crate::data::axes::Axes;
@@ -63,12 +63,12 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
         notes.push(format!("best over {}", request.listed(&request.best_over)));
         best(request, table, &columns, &axes, &slice.rows)?
     };
-    for Taken { name, value, of, .. } in &slice.taken {
+    for ChosenValue { name, value, of, .. } in &slice.chosen {
         console::say(&format!(
             "drawn: {name} = {value}, the middle of {of} values; --where chooses another value"
         ));
     }
-    notes.extend(slice.taken.into_iter().map(|taken| taken.shown));
+    notes.extend(slice.chosen.into_iter().map(|chosen| chosen.shown));
     let mut parameters: Vec<usize> = (1..request.parameters_end).collect();
     let sample = table.sample.as_deref().unwrap_or_default();
     parameters.sort_by_key(|&column| !sample.contains(&table.columns[column].name));

@@ -31,7 +31,7 @@ pub(super) fn filtered(table: &Table, filters: &[(usize, String)]) -> Result<Vec
             let message = format!("no row has {name} = {text}");
             let levels = Levels::of(table, column, &rows);
             let failure = Failure::usage(message).help(listed(table, column, &levels));
-            return Err(failure.helps(slip(table, column, text)));
+            return Err(failure.helps(prefix_question(table, column, text)));
         }
         rows = kept;
     }
@@ -39,10 +39,10 @@ pub(super) fn filtered(table: &Table, filters: &[(usize, String)]) -> Result<Vec
 }
 
 /// Returns a question if a number without a unit may lack a prefix.
-fn slip(table: &Table, column: usize, text: &str) -> Option<String> {
+fn prefix_question(table: &Table, column: usize, text: &str) -> Option<String> {
     let Column { name, unit, .. } = &table.columns[column];
     let usual = *table.numbers(column).ok()?.first()?;
-    filter::meant(name, unit, text.parse().ok()?, usual)
+    filter::prefix_question(name, unit, text.parse().ok()?, usual)
 }
 
 /// Returns the values of a column as text: at most a dozen values.
@@ -63,11 +63,11 @@ fn listed(table: &Table, column: usize, levels: &Levels) -> String {
 pub(super) struct Slice {
     pub(super) rows: Vec<usize>,
     /// The value that was chosen for each axis that the picture does not show.
-    pub(super) taken: Vec<Taken>,
+    pub(super) chosen: Vec<ChosenValue>,
 }
 
 /// The value that was chosen for an axis.
-pub(super) struct Taken {
+pub(super) struct ChosenValue {
     /// The value with the label of the axis: `Drive voltage 70 V`.
     pub(super) shown: String,
     /// The column.
@@ -80,7 +80,7 @@ pub(super) struct Taken {
 
 /// Chooses the middle value of each axis in `axes`. The picture does not show the axes in `axes`.
 pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> Slice {
-    let mut taken = Vec::new();
+    let mut chosen = Vec::new();
     for &axis in axes {
         let levels = Levels::of(table, axis, &rows);
         if levels.len() < 2 {
@@ -90,7 +90,7 @@ pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> Sli
         let name = &table.columns[axis].name;
         let label = table.label(axis);
         let value = levels.text(middle, &label);
-        taken.push(Taken {
+        chosen.push(ChosenValue {
             shown: format!("{} {value}", label.words),
             name: name.clone(),
             value,
@@ -103,7 +103,7 @@ pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> Sli
             .map(|(row, _)| row)
             .collect();
     }
-    Slice { rows, taken }
+    Slice { rows, chosen }
 }
 
 /// Returns, for each combination of values in the columns `shown`, the row with the best number in the column `measure`.
@@ -148,11 +148,11 @@ mod tests {
         let table = grid();
         let slice = sliced(&table, &[2], (0..6).collect());
         assert_eq!(slice.rows, [1, 4]);
-        assert_eq!(slice.taken.len(), 1);
-        let Taken { name, value, of, .. } = &slice.taken[0];
+        assert_eq!(slice.chosen.len(), 1);
+        let ChosenValue { name, value, of, .. } = &slice.chosen[0];
         assert_eq!((name.as_str(), value.as_str(), *of), ("f", "20 Hz", 3));
-        assert_eq!(slice.taken[0].shown, "F 20 Hz");
-        assert!(sliced(&table, &[], (0..6).collect()).taken.is_empty());
+        assert_eq!(slice.chosen[0].shown, "F 20 Hz");
+        assert!(sliced(&table, &[], (0..6).collect()).chosen.is_empty());
     }
 
     #[test]
