@@ -36,7 +36,7 @@ impl Axes {
                 continue;
             }
             let follows = table.derived.contains(&table.columns[column].name)
-                || kept.iter().any(|(_, earlier)| levels.follow(earlier));
+                || kept.iter().any(|(_, earlier)| levels.is_determined_by(earlier));
             if follows { &mut others } else { &mut kept }.push((column, levels));
         }
         let sample = sample(table, &kept, &others);
@@ -100,13 +100,13 @@ impl Ends {
 /// Returns the parameters of a sample, from the sidecar. Without a sidecar, returns the columns whose values follow
 /// from the columns of the sample.
 fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) -> Vec<usize> {
-    let standing = || kept.iter().filter(|(column, _)| sample.contains(column));
+    let kept_sample = || kept.iter().filter(|(column, _)| sample.contains(column));
     let is_member = |(column, levels): &&Varied| match &table.sample {
         Some(sample) => sample.contains(&table.columns[*column].name),
-        None => standing().any(|(_, first)| levels.follow(first)),
+        None => kept_sample().any(|(_, first)| levels.is_determined_by(first)),
     };
     let mut members: Vec<usize> =
-        standing().chain(others.iter().filter(is_member)).map(|(column, _)| *column).collect();
+        kept_sample().chain(others.iter().filter(is_member)).map(|(column, _)| *column).collect();
     members.sort_unstable();
     members
 }
@@ -118,7 +118,7 @@ fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let looks_sampled = |(column, levels): &&Varied| {
         if let Some(sample) = &table.sample {
             let is_named = |column: usize| sample.contains(&table.columns[column].name);
-            let followers = others.iter().filter(|(_, other)| other.follow(levels));
+            let followers = others.iter().filter(|(_, other)| other.is_determined_by(levels));
             return is_named(*column) || followers.map(|(other, _)| *other).any(is_named);
         }
         let is_alone = kept.len() == 1;
@@ -145,7 +145,7 @@ fn is_mixed((column, levels): (usize, &Levels), (other, others): &Varied, table:
     else {
         return false;
     };
-    levels.follow(others) && !is_even(levels) && rank_correlation(one, two).abs() < 0.9
+    levels.is_determined_by(others) && !is_even(levels) && rank_correlation(one, two).abs() < 0.9
 }
 
 /// Returns true for values with constant steps or constant ratios, as axes often have.

@@ -69,7 +69,7 @@ impl Levels {
     }
 
     /// Returns true if, in each row, the value in the column `other` determines the value in this column.
-    pub(crate) fn follow(&self, other: &Levels) -> bool {
+    pub(crate) fn is_determined_by(&self, other: &Levels) -> bool {
         let mut image = vec![usize::MAX; other.len()];
         self.codes.iter().zip(&other.codes).all(|(&mine, &theirs)| {
             let first = image[theirs] == usize::MAX;
