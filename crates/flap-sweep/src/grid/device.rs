@@ -155,7 +155,7 @@ impl Base {
             };
             set.push((index, entry.key_span.clone()));
             // No value: the resonance is computed later.
-            if resonance::is_asked_for(&entry) {
+            if resonance::sets_resonance(&entry) {
                 self.uncertainty.set(index, None);
                 continue;
             }

@@ -16,7 +16,7 @@ pub(super) const KEYS: [&str; 4] = ["of", "from", "to", "tolerance"];
 pub(super) const WORD: &str = "resonance";
 
 /// Returns true if `entry` sets the drive frequency to the resonance.
-pub(super) fn is_asked_for(entry: &Entry<'_>) -> bool {
+pub(super) fn sets_resonance(entry: &Entry<'_>) -> bool {
     entry.key == DRIVE_FREQUENCY && entry.value.get_ref().as_str() == Some(WORD)
 }
 
@@ -31,7 +31,7 @@ pub(super) fn read(
 ) -> Option<AtResonance> {
     let params = table::find(root, "params").and_then(|entry| entry.value.get_ref().as_table());
     let params = params.map(table::entries).unwrap_or_default();
-    let asked = params.iter().find(|entry| is_asked_for(entry));
+    let asked = params.iter().find(|entry| sets_resonance(entry));
     let section = table::find(root, "resonance");
     let Some(asked) = asked else {
         if let Some(section) = section {
