@@ -171,23 +171,23 @@ impl Base {
     }
 }
 
-type Chosen = (&'static dyn Simulator, &'static Preset);
+type ModelPreset = (&'static dyn Simulator, &'static Preset);
 
 /// Returns the preset that the file names, and the model of the preset.
 pub(super) fn read_preset(
     root: &[Entry<'_>],
     models: &[&'static dyn Simulator],
     problems: &mut Problems,
-) -> Option<Chosen> {
-    let all: Vec<Chosen> =
+) -> Option<ModelPreset> {
+    let all: Vec<ModelPreset> =
         models.iter().flat_map(|model| model.presets().iter().map(|preset| (*model, preset))).collect();
     let Some(entry) = table::find(root, "preset") else {
-        if root.iter().any(|entry| is_slip(entry.key)) {
+        if root.iter().any(|entry| is_misspelt_start(entry.key)) {
             // The misspelt key is reported elsewhere, with the correct one.
             return None;
         }
         let message = if root.is_empty() { "the file is empty" } else { "`preset` is missing" };
-        let diagnostic = problems.report(0..0, message).note(list(&all));
+        let diagnostic = problems.report(0..0, message).note(presets_and_models(&all));
         if let Some((_, first)) = all.first() {
             diagnostic.help(format!("start the file with a preset, such as: preset = \"{}\"", first.name));
         }
@@ -199,19 +199,19 @@ pub(super) fn read_preset(
         problems
             .report(entry.value.span(), format!("there is no preset `{name}`"))
             .label("unknown preset")
-            .note(list(&all))
+            .note(presets_and_models(&all))
             .did_you_mean(name, all.iter().map(|(_, preset)| preset.name));
     }
     chosen
 }
 
 /// Returns true if a key at the top of the file is a misspelling of `preset` or `device`.
-fn is_slip(key: &str) -> bool {
+fn is_misspelt_start(key: &str) -> bool {
     let meant = nearest(key, table::KEYS).filter(|_| !table::KEYS.contains(&key));
     meant.is_some_and(|meant| ["preset", "device"].contains(&meant))
 }
 
-fn list(all: &[Chosen]) -> String {
+fn presets_and_models(all: &[ModelPreset]) -> String {
     let named: Vec<String> =
         all.iter().map(|(model, preset)| format!("{} ({})", preset.name, model.name())).collect();
     format!("presets, with their models: {}", named.join(", "))

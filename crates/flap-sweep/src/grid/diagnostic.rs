@@ -284,19 +284,20 @@ pub(super) fn report_syntax(errors: &[toml::de::Error], problems: &mut Problems)
 ///
 /// Messages without a clearer form are returned unchanged.
 fn explain(message: &str, text: &str) -> (String, Option<String>) {
-    let said = |begins: &str| message.starts_with(begins);
+    let begins = |text: &str| message.starts_with(text);
     if message == "duplicate key" {
         (format!("`{text}` is defined twice"), Some("keep one of them".into()))
-    } else if said("string values must be quoted") && text.is_empty() {
+    } else if begins("string values must be quoted") && text.is_empty() {
         ("a value is missing".into(), Some("write a number, text in quotes, a list or a range".into()))
-    } else if said("string values must be quoted") {
+    } else if begins("string values must be quoted") {
         (format!("`{text}` needs quotes"), Some(format!("write \"{}\"", text.escape_default())))
-    } else if said("invalid basic string, expected `\"`") || said("invalid literal string, expected `'`") {
+    } else if begins("invalid basic string, expected `\"`") || begins("invalid literal string, expected `'`")
+    {
         ("a closing quote is missing".into(), Some("end text with the quote it begins with".into()))
-    } else if said("missing comma between array elements") {
+    } else if begins("missing comma between array elements") {
         let help = "put commas between the values of a list, and ] after the last";
         (format!("not valid TOML: {message}"), Some(help.into()))
-    } else if said("unexpected key or value") {
+    } else if begins("unexpected key or value") {
         let help = "start each key on a new line; numbers have a decimal point, not a comma";
         (format!("not valid TOML: {message}"), Some(help.into()))
     } else {

@@ -88,7 +88,7 @@ impl Reader<'_, '_> {
             self.problems.report(self.whole.value.span(), message).note(NOTE);
             return None;
         };
-        self.sound(if scale == 0 {
+        self.checked(if scale == 0 {
             Distribution::Uniform { from, to }
         } else {
             Distribution::LogUniform { from, to }
@@ -112,7 +112,7 @@ impl Reader<'_, '_> {
         };
         let sd = self.sd(mean)?;
         let (from, to) = (from.ok()?.unwrap_or(f64::NEG_INFINITY), to.ok()?.unwrap_or(f64::INFINITY));
-        self.sound(Distribution::Normal { mean, sd, from, to })
+        self.checked(Distribution::Normal { mean, sd, from, to })
     }
 
     /// Returns the standard deviation in the unit of the parameter.
@@ -154,7 +154,7 @@ impl Reader<'_, '_> {
     }
 
     /// Returns the distribution, if values can be drawn from the distribution.
-    fn sound(&mut self, distribution: Distribution) -> Option<Distribution> {
+    fn checked(&mut self, distribution: Distribution) -> Option<Distribution> {
         let mistake = match distribution {
             Distribution::Uniform { from, to }
             | Distribution::LogUniform { from, to }
