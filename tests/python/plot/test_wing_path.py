@@ -18,11 +18,13 @@ def test_wing_path_is_saved_as_gif(motion, tmp_path):
         assert image.convert("RGB").getpixel((0, 0)) == (255, 255, 255)
 
 
-def test_wing_path_is_saved_as_a_page(motion, tmp_path):
+@pytest.mark.parametrize(("options", "interval"), [({}, 40), ({"fps": 10}, 100)])
+def test_wing_path_is_saved_as_a_page(motion, tmp_path, options, interval):
     path = tmp_path / "cycle.html"
-    plot.wing_path(motion, frames=2).save(path, dpi=40)
+    plot.wing_path(motion, frames=2).save(path, dpi=40, **options)
     page = path.read_text(encoding="utf-8")
     assert page.count("data:image/png;base64") == 2
+    assert f"new Animation(frames, img_id, slider_id, {interval}," in page
 
 
 @pytest.mark.parametrize("preset", ["jafferis2016", "ozaki2018-large", "arabagi2013-75hz"])

@@ -45,7 +45,8 @@ class Animation(FuncAnimation):
         if writer is None and ending == ".gif":
             writer = "pillow"
         elif writer is None and ending in (".html", ".htm"):
-            writer = HTMLWriter(fps=options.get("fps", 25), embed_frames=True, default_mode="loop")
+            # matplotlib rejects `fps` beside a writer, so the writer takes it.
+            writer = HTMLWriter(fps=options.pop("fps", 25), embed_frames=True, default_mode="loop")
         # The writer draws each frame. Without this, matplotlib draws each frame twice.
         canvas: Any = self._scene.figure.canvas
         canvas.draw_idle = lambda: None
