@@ -125,6 +125,10 @@ def test_mistakes_are_told_before_a_figure_is_made(slopes, robot):
     told = message(ValueError, plot.control_matrix, course(drive_offset=np.arange(3.0)))
     assert told.startswith("the table has no derivatives of force and torque\ncall evaluate with gradient=")
     single = {"drive_frequency": np.arange(3.0), "lift_mean_mn": np.arange(3.0)}
-    assert "it has no results of a vehicle" in message(ValueError, plot.force_panels, single)
+    # The names are in the order of the panels.
+    assert (
+        "the table has no columns force_forward_mn, force_left_mn, force_up_mn, torque_roll_unm, torque_pitch_unm, "
+        "torque_yaw_unm: it has no results of a vehicle"
+    ) in message(ValueError, plot.force_panels, single)
     by_power = flapwing.evaluate(robot, {"drive_offset": [0.0]}, gradient=["drive_offset"], measures=["power_mean_mw"])
     assert "of no force or torque" in message(ValueError, plot.control_matrix, by_power)

@@ -128,11 +128,10 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
         Raised if the results do not have the columns of a vehicle, or a column or value is unknown.
     """
     data = Data.of(table).slice(where, slices)
-    outputs = [name for name in (*FORCES, *TORQUES) if name in data]
-    if len(outputs) != 6:
-        raise ValueError(
-            f"the table has no columns {', '.join({*FORCES, *TORQUES} - set(outputs))}: it has no results of a vehicle"
-        )
+    outputs = (*FORCES, *TORQUES)
+    missing = [name for name in outputs if name not in data]
+    if missing:
+        raise ValueError(f"the table has no columns {', '.join(missing)}: it has no results of a vehicle")
     x = along(data, None) if x is None else x
     if not data.on_a_grid(x):
         raise scattered(x)
