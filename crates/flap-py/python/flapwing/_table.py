@@ -243,7 +243,9 @@ class Table:
 
     @property
     def periodic(self) -> Table:
-        """Return a table with the rows that have a periodic motion. Only rows with a periodic motion have measures."""
+        """The rows that have the status ``"periodic"``, as a table. Of the rows with other statuses, only unstable
+        orbits of `respond` have measures.
+        """
         return self[self["status"] == "periodic"]
 
     def to_pandas(self) -> pandas.DataFrame:
