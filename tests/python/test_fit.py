@@ -190,7 +190,7 @@ def test_a_robust_loss_keeps_the_weight_of_priors(loss):
     assert list(first[-2:]) == [1.0, 1.0] and list(second[-2:]) == [0.0, 0.0]
     assert target.cost(np.array([*np.zeros(400), 3.0, 3.0])) == 9.0
     slopes, priors = np.tile([1.0, 0.0], (400, 1)), space.prior(np.zeros(2))[1]
-    inverse, _ = _search.inverse(np.concatenate([np.sqrt(curvature) * slopes, priors]))
+    inverse, _ = _search.covariance_of(np.concatenate([np.sqrt(curvature) * slopes, priors]))
     errors = np.sqrt(np.diag(_search.m_covariance(inverse, inverse, priors, variance * curvature)))
     # The variance of the gradient, divided by the square of the curvature.
     expected = np.sqrt(variance * curvature**2 * 400 + 400) / (curvature * 400 + 400)

@@ -158,8 +158,8 @@ def test_priors_and_readings_share_the_parameters():
     space = Space([Coordinate("a", None, "a", "", False, -1.0, 1.0, 0.0, (0.0, 0.5))])
     target = Target(np.zeros(4), np.ones(4), np.ones(4, np.bool_), "linear")
     answer = SimpleNamespace(values=np.zeros(4), slopes=np.ones((4, 1)))
-    assert _search.followed(space, target, np.zeros(1), answer) == pytest.approx(0.5)
-    assert _search.determined(target.jacobian(space, np.zeros(1), answer)) == 1
+    assert _search.effective_parameters(space, target, np.zeros(1), answer) == pytest.approx(0.5)
+    assert _search.rank(target.jacobian(space, np.zeros(1), answer)) == 1
     # If priors determine all parameters, the estimated standard error is the root mean square of the residuals.
     free = {name: flapwing.FreeParameter(prior=(value, "0.01 %")) for name, value in TRUTH.items()}
     data = {name: values[:3] for name, values in readings().items()}

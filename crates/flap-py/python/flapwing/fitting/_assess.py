@@ -44,12 +44,12 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     readings = int(target.used.sum())
     slopes = np.zeros((len(scaled), len(model.space)))
     slopes[target.used] = jacobian[:readings]
-    parameters = _search.followed(model.space, target, found.x, answer)
+    parameters = _search.effective_parameters(model.space, target, found.x, answer)
     every = target.residuals(model.space, found.x, answer)
     curvature, variance = _search.robust_factors(every[:readings], target.loss, readings - parameters)
     jacobian[:readings] *= np.sqrt(curvature)
-    inverse, lost = _search.inverse(jacobian)
-    known = _search.determined(jacobian)
+    inverse, lost = _search.covariance_of(jacobian)
+    known = _search.rank(jacobian)
     good = _solution.goodness(residuals, structure, every[readings:], known, sigma_known(sets))
     fitted = counted & ~is_far
     discrepancy = Discrepancies([], {}, inverse, np.inf)
@@ -78,8 +78,8 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     with np.errstate(invalid="ignore", divide="ignore"):
         factors = np.sqrt(np.maximum(np.diag(covariance), np.diag(least)) / np.diag(inverse))
     return Assessed(
-        _search.without(inverse, lost),
-        _search.without(covariance, lost),
+        _search.with_infinite_variances(inverse, lost),
+        _search.with_infinite_variances(covariance, lost),
         np.where(np.isfinite(factors), factors, 1.0),
         jacobian,
         discrepancy,

@@ -11,7 +11,7 @@ from .._types import Array, Mask
 from ._data import DataSet, all_readings, are_unknown, estimating
 from ._model import Answer
 from ._parameters import Space
-from ._search import Target, determined, sigmas
+from ._search import Target, rank, sigmas
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ def criteria(sets: Sequence[DataSet], space: Space, x: Array, answer: Answer, co
     chi_square = float(np.sum(error[counted] ** 2) + priors @ priors)
     deviance = float(-2.0 * np.sum(log[counted]) + priors @ priors)
     jacobian = Target(measured, sigma, counted, "linear").jacobian(space, x, answer)
-    count, readings = determined(jacobian) + estimated, int(counted.sum())
+    count, readings = rank(jacobian) + estimated, int(counted.sum())
     left = readings - count - 1
     # AICc is infinite for too few readings.
     correction = 2.0 * count * (count + 1) / left if left > 0 else np.inf

@@ -6,7 +6,7 @@ import numpy as np
 
 from .._types import Array, Places
 from ._parameters import Space
-from ._search import determined
+from ._search import rank
 
 #: Limit of the probability below which data sets disagree. The limit is divided by the number of tests of a fit
 #: (Bonferroni).
@@ -24,7 +24,7 @@ def between_sets(space: Space, of_set: Places, scaled: Array, jacobian: Array) -
     """
     from scipy.stats import f
 
-    count, known = len(np.unique(of_set)), determined(jacobian)
+    count, known = len(np.unique(of_set)), rank(jacobian)
     shared = [place for place, one in enumerate(space.coordinates) if one.of_set is None]
     freedom = len(scaled) - known - (count - 1)
     if count < 2 or freedom < 1 or not shared:

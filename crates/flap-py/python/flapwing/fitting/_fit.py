@@ -145,7 +145,7 @@ def finish(
     """
     target, found, answer = _settle(model, sets, target, ends[0], guesses)
     readings = int((target.used & np.isfinite(answer.values)).sum()) + len(model.space.prior(found.x)[0])
-    if readings <= _search.determined(target.jacobian(model.space, found.x, answer)):
+    if readings <= _search.rank(target.jacobian(model.space, found.x, answer)):
         raise ValueError(_too_few(model, sets, found, answer, held))
     result = assess(model, sets, target, found, answer)
     profiles, better = None, None
@@ -197,7 +197,7 @@ def _settle(
     for _ in range(_ROUNDS):
         answer = model.at([found.x], rtol=FINE)[0]
         used = target.used & np.isfinite(answer.values)
-        parameters = _search.followed(model.space, target, found.x, answer)
+        parameters = _search.effective_parameters(model.space, target, found.x, answer)
         _search.new_guesses(sets, target, used, answer, parameters, guesses)
         sigma = _search.sigmas(sets, answer.values, guesses)
         after = Target(target.measured, sigma, used, target.loss)

@@ -13,7 +13,7 @@ import numpy as np
 from .._types import Array, Places
 from ._model import FINE, Answer, Model
 from ._parameters import Coordinate, Space
-from ._search import NOTHING, Ask, Found, Target, decompose, minimise, sobol, together, tolerance_of
+from ._search import RANK_TOLERANCE, Ask, Found, Target, decompose, minimise, sobol, together, tolerance_of
 
 #: Largest number of values of a profile on each side of the estimate.
 _TRIES = 6
@@ -289,7 +289,7 @@ def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[s
     told = []
     for label, place in zip(labels, (0, -1)):
         direction = directions[place]
-        if sizes[place] <= NOTHING * sizes[0]:
+        if sizes[place] <= RANK_TOLERANCE * sizes[0]:
             error = "not determined"
         else:
             largest = int(np.argmax(np.abs(direction)))

@@ -293,7 +293,7 @@ def tolerance_of(error: float, cost: float) -> float:
 
 #: Smallest singular value of a direction with an effect, relative to the largest singular value. Derivatives have
 #: relative errors of about 1e-4.
-NOTHING = 3e-4
+RANK_TOLERANCE = 3e-4
 
 
 def decompose(jacobian: Array) -> tuple[Array, Array, Array, Mask]:
@@ -305,10 +305,10 @@ def decompose(jacobian: Array) -> tuple[Array, Array, Array, Mask]:
     lengths[lengths == 0.0] = 1.0
     _, sizes, directions = np.linalg.svd(jacobian / lengths, full_matrices=True)
     sizes = np.concatenate([sizes, np.zeros(len(directions) - len(sizes))])
-    return lengths, sizes, directions, sizes > NOTHING * sizes.max(initial=0.0)
+    return lengths, sizes, directions, sizes > RANK_TOLERANCE * sizes.max(initial=0.0)
 
 
-def inverse(jacobian: Array) -> tuple[Array, Mask]:
+def covariance_of(jacobian: Array) -> tuple[Array, Mask]:
     """Return the covariance of coordinates from the derivatives of residuals, and a mask of the coordinates that the
     residuals do not determine. The covariance leaves out directions without an effect on the residuals.
     """
@@ -317,24 +317,26 @@ def inverse(jacobian: Array) -> tuple[Array, Mask]:
     return scaled.T @ scaled, np.sum(directions[~known] ** 2, axis=0) > 1e-4
 
 
-def determined(jacobian: Array) -> int:
-    """Return the number of coordinates, or combinations of coordinates, that the residuals determine: the rank of the
-    derivatives.
+def rank(jacobian: Array) -> int:
+    """Return the rank of the derivatives of residuals: the number of combinations of coordinates that the residuals
+    determine.
     """
     return int(decompose(jacobian)[3].sum())
 
 
-def followed(space: Space, target: Target, x: Array, answer: Answer) -> float:
-    """Return the number of coordinates that the readings determine: the trace of the hat matrix of the readings. A
-    coordinate that a prior determines alone does not count.
+def effective_parameters(space: Space, target: Target, x: Array, answer: Answer) -> float:
+    """Return the effective number of parameters that the readings determine: the trace of the hat matrix of the
+    readings. A coordinate that a prior determines alone does not count.
     """
     jacobian = target.jacobian(space, x, answer)
     readings = jacobian[: int(target.used.sum())]
-    return float(np.sum(inverse(jacobian)[0] * (readings.T @ readings)))
+    return float(np.sum(covariance_of(jacobian)[0] * (readings.T @ readings)))
 
 
-def without(covariance: Array, lost: Mask) -> Array:
-    """Return a covariance that is infinite for undetermined coordinates."""
+def with_infinite_variances(covariance: Array, lost: Mask) -> Array:
+    """Return a covariance in which the variances of undetermined coordinates are infinite, and their correlations
+    unknown.
+    """
     found = covariance.copy()
     found[lost, :] = np.nan
     found[:, lost] = np.nan
@@ -362,7 +364,7 @@ def new_guesses(
     sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: float, guesses: dict[str, float]
 ) -> None:
     """Update the estimates of unknown standard errors in `guesses`, from the residuals. The readings determine a number
-    of `parameters` (see `followed`).
+    of `parameters` (see `effective_parameters`).
     """
     freedom = max(1.0, int(used.sum()) - parameters) / max(1, int(used.sum()))
     for measure in guesses:

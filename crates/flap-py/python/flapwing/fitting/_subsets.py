@@ -115,7 +115,7 @@ class Subsets:
             x = _search.polish(model, target, x, _COST).x
             answer = model.at([x], slopes=len(x) > 0, rtol=FINE)[0]
             used = target.used & np.isfinite(answer.values)
-            parameters = _search.followed(model.space, target, x, answer)
+            parameters = _search.effective_parameters(model.space, target, x, answer)
             _search.new_guesses(self.sets, target, used, answer, parameters, guesses)
             before = target.sigma
             target = replace(target, sigma=_search.sigmas(self.sets, answer.values, guesses))
@@ -169,7 +169,9 @@ class Subsets:
         rises too much."""
         space = self.space(state.names)
         mine = np.array([one.parameter == name for one in space.coordinates])
-        covariance = _search.without(*_search.inverse(state.target.jacobian(space, state.x, state.answer)))
+        covariance = _search.with_infinite_variances(
+            *_search.covariance_of(state.target.jacobian(space, state.x, state.answer))
+        )
         errors = np.sqrt(np.diag(covariance)[mine])
         if np.sum(((state.x[mine] - self.at_design(name)) / errors) ** 2) > _NEEDED:
             return None
@@ -191,10 +193,10 @@ class Subsets:
     ) -> Effect:
         """Return the predicted effect of one candidate parameter."""
         own = self.coordinates[name]
-        left = np.linalg.pinv(free, rcond=_search.NOTHING) if free.shape[1] else np.zeros((0, len(residuals)))
+        left = np.linalg.pinv(free, rcond=_search.RANK_TOLERANCE) if free.shape[1] else np.zeros((0, len(residuals)))
         # The part of the derivatives and of the residuals that the free parameters cannot change.
         across, rest = added - free @ (left @ added), residuals - free @ (left @ residuals)
-        known = np.linalg.norm(across, axis=0) > _search.NOTHING * np.linalg.norm(added, axis=0)
+        known = np.linalg.norm(across, axis=0) > _search.RANK_TOLERANCE * np.linalg.norm(added, axis=0)
         across[:, ~known] = 0.0
         step = np.linalg.lstsq(across, -rest, rcond=None)[0]
         origin = [space.coordinates[number] for number in place]
