@@ -85,15 +85,15 @@ class _ProfileSearch:
     quantile: float
     factors: Array
 
-    def side(self, ask: Ask, held: int, way: float) -> _Side:
+    def side(self, ask: Ask, fixed: int, way: float) -> _Side:
         """Return the profile on one side of the estimate, up to the required height or the bound of the parameter."""
-        height = self.quantile * float(self.factors[held])
-        here = self.found.x[held]
-        end = self.space.high[held] if way > 0 else self.space.low[held]
-        error = np.sqrt(self.covariance[held, held])
+        height = self.quantile * float(self.factors[fixed])
+        here = self.found.x[fixed]
+        end = self.space.high[fixed] if way > 0 else self.space.low[fixed]
+        error = np.sqrt(self.covariance[fixed, fixed])
         # The other coordinates change with it, as predicted by the derivatives at the estimate.
         with np.errstate(invalid="ignore", divide="ignore"):
-            slope = self.covariance[:, held] / self.covariance[held, held]
+            slope = self.covariance[:, fixed] / self.covariance[fixed, fixed]
         slope = np.where(np.isfinite(slope), slope, 0.0)
         step = height * error if np.isfinite(error) and error > 0 else np.inf
         inner, outer = (0.0, 0.0), None
@@ -106,8 +106,8 @@ class _ProfileSearch:
             limit = abs(end - here)
             step = min(step, limit)
             x = np.clip(self.found.x + slope * way * step, self.space.low, self.space.high)
-            x[held] = here + way * step
-            tried = minimise(ask, self.space, self.target, x, held, steps=6, tolerance=tolerance)
+            x[fixed] = here + way * step
+            tried = minimise(ask, self.space, self.target, x, fixed, steps=6, tolerance=tolerance)
             if tried.cost < self.found.cost - 1e-3 and (best is None or tried.cost < best.cost):
                 best = tried
             rise = float(np.sqrt(max(0.0, 2.0 * (tried.cost - self.found.cost))))
@@ -134,14 +134,14 @@ class _ProfileSearch:
             # The profile reaches the end of the range, or hardly rises.
             reached, is_open = end, True
         for share in _BETWEEN:
-            self._between(ask, held, share, tried.x, side, tolerance)
+            self._between(ask, fixed, share, tried.x, side, tolerance)
         return _Side(side.x, side.height, float(reached), is_open, best)
 
-    def _between(self, ask: Ask, held: int, share: float, far: Array, side: _Side, tolerance: float) -> None:
+    def _between(self, ask: Ask, fixed: int, share: float, far: Array, side: _Side, tolerance: float) -> None:
         """Add a value to one side of a profile, between the estimate and the last value of the side."""
         x = np.clip(self.found.x + share * (far - self.found.x), self.space.low, self.space.high)
-        tried = minimise(ask, self.space, self.target, x, held, steps=6, tolerance=tolerance)
-        side.x.append(float(x[held]))
+        tried = minimise(ask, self.space, self.target, x, fixed, steps=6, tolerance=tolerance)
+        side.x.append(float(x[fixed]))
         side.height.append(float(np.sqrt(max(0.0, 2.0 * (tried.cost - self.found.cost)))))
 
 
@@ -154,7 +154,7 @@ def profiles(
     """
     space = model.space
     search = _ProfileSearch(space, target, found, covariance, quantile, factors)
-    sides = [partial(search.side, held=held, way=way) for held in range(len(space)) for way in (-1.0, 1.0)]
+    sides = [partial(search.side, fixed=fixed, way=way) for fixed in range(len(space)) for way in (-1.0, 1.0)]
 
     def answer(xs: list[Array]) -> list[Answer]:
         return model.at(xs, rtol=FINE)
@@ -162,10 +162,10 @@ def profiles(
     ends = together(sides, answer)
     better = min((side.best for side in ends if side.best is not None), key=lambda one: one.cost, default=None)
     made = []
-    for held, coordinate in enumerate(space.coordinates):
-        below, above = ends[2 * held], ends[2 * held + 1]
-        x = np.array([*below.x, found.x[held], *above.x])
-        rise = np.array([*(-np.array(below.height)), 0.0, *above.height]) / factors[held]
+    for fixed, coordinate in enumerate(space.coordinates):
+        below, above = ends[2 * fixed], ends[2 * fixed + 1]
+        x = np.array([*below.x, found.x[fixed], *above.x])
+        rise = np.array([*(-np.array(below.height)), 0.0, *above.height]) / factors[fixed]
         order = np.argsort(x)
         values = np.asarray(coordinate.value(x[order]))
         low, high = coordinate.value(below.end), coordinate.value(above.end)

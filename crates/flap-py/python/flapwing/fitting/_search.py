@@ -145,12 +145,18 @@ class Found:
 
 
 def minimise(
-    ask: Ask, space: Space, target: Target, begin: Array, held: int | None, steps: int = _STEPS, tolerance: float = 1e-8
+    ask: Ask,
+    space: Space,
+    target: Target,
+    begin: Array,
+    fixed: int | None,
+    steps: int = _STEPS,
+    tolerance: float = 1e-8,
 ) -> Found:
-    """Return the best coordinates near `begin`. The coordinate `held` is kept fixed."""
+    """Return the best coordinates near `begin`. The coordinate with the index `fixed` does not change."""
     from scipy.optimize import least_squares
 
-    moving = np.array([place for place in range(len(space)) if place != held], np.intp)
+    moving = np.array([place for place in range(len(space)) if place != fixed], np.intp)
     whole = begin.copy()
     seen: dict[bytes, Answer] = {}
 
@@ -267,7 +273,7 @@ def m_covariance(covariance: Array, inverse: Array, priors: Array, ratio: float)
 def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Found]:
     """Return the ends of the searches from all starts, with the best end first."""
     searches = [
-        partial(minimise, space=model.space, target=target, begin=begin, held=None, steps=25, tolerance=1e-3)
+        partial(minimise, space=model.space, target=target, begin=begin, fixed=None, steps=25, tolerance=1e-3)
         for begin in begins
     ]
     found = together(searches, lambda xs: model.at(xs, rtol=COARSE))
