@@ -13,7 +13,7 @@ from ._discrepancy import Discrepancies, of_residuals
 from ._drift import between_sets
 from ._model import Answer, Model
 from ._search import Found, Target
-from ._solution import Assessed, Outlier
+from ._solution import Assessment, Outlier
 from ._structure import Layout, tests
 
 #: Limits of the probability of chi-square. Below the first limit, the model is poor. Below the second limit, the model
@@ -25,7 +25,7 @@ POOR, DOUBTFUL, TOO_GOOD = 0.001, 0.05, 0.99
 _OUTLYING, _OUTLYING_ROBUST = 4.0, 3.0
 
 
-def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answer: Answer) -> Assessed:
+def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answer: Answer) -> Assessment:
     """Return the errors of an estimate, and the quality of the fit."""
     counted = target.used & np.isfinite(answer.values)
     difference = np.where(counted, answer.values - target.measured, np.nan)
@@ -77,7 +77,7 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     )
     with np.errstate(invalid="ignore", divide="ignore"):
         factors = np.sqrt(np.maximum(np.diag(covariance), np.diag(least)) / np.diag(inverse))
-    return Assessed(
+    return Assessment(
         _search.with_infinite_variances(inverse, lost),
         _search.with_infinite_variances(covariance, lost),
         np.where(np.isfinite(factors), factors, 1.0),

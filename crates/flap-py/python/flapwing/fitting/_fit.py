@@ -147,29 +147,33 @@ def finish(
     readings = int((target.used & np.isfinite(answer.values)).sum()) + len(model.space.prior(found.x)[0])
     if readings <= _search.rank(target.jacobian(model.space, found.x, answer)):
         raise ValueError(_too_few(model, sets, found, answer, held))
-    result = assess(model, sets, target, found, answer)
+    assessment = assess(model, sets, target, found, answer)
     profiles, better = None, None
     if profile:
-        profiles, better = _intervals.profiles(model, target, found, result.plain, result.quantile, result.factors)
+        profiles, better = _intervals.profiles(
+            model, target, found, assessment.plain, assessment.quantile, assessment.factors
+        )
         if better is not None:
             # The profile found a lower minimum, which becomes the fit.
             target, found, answer = _settle(model, sets, target, better, guesses)
-            result = assess(model, sets, target, found, answer)
-            profiles, _ = _intervals.profiles(model, target, found, result.plain, result.quantile, result.factors)
-    for measure in result.discrepancy.noise:
+            assessment = assess(model, sets, target, found, answer)
+            profiles, _ = _intervals.profiles(
+                model, target, found, assessment.plain, assessment.quantile, assessment.factors
+            )
+    for measure in assessment.discrepancy.noise:
         if kinds(sets)[measure] == "unknown":
             # The whole of the estimated standard error is discrepancy.
             guesses[measure] = 0.0
-    jacobian = result.jacobian / result.factors
+    jacobian = assessment.jacobian / assessment.factors
     slopes = model.space.slopes(found.x)
     made = Fit(
         model=model,
         sets=sets,
         x=found.x,
-        assessed=result,
+        assessment=assessment,
         information=jacobian.T @ jacobian,
-        estimates=_estimates(model, found.x, result.covariance, profiles, result.quantile),
-        spreads=spreads(model.space, target, found.x, answer, result.covariance * np.outer(slopes, slopes)),
+        estimates=_estimates(model, found.x, assessment.covariance, profiles, assessment.quantile),
+        spreads=spreads(model.space, target, found.x, answer, assessment.covariance * np.outer(slopes, slopes)),
         sigma_known=sigma_known(sets),
         guesses=guesses,
         combinations=_intervals.combinations(model.space, jacobian, ("best known", "worst known")),

@@ -216,7 +216,7 @@ class Goodness:
 
 
 @dataclass(frozen=True)
-class Assessed:
+class Assessment:
     """The errors of an estimate, and the quality of the fit."""
 
     #: The inverse of the curvature of the cost, and the covariance of the coordinates. The covariance contains the
@@ -302,7 +302,7 @@ class Solution:
         model: Model,
         sets: list[DataSet],
         x: Array,
-        assessed: Assessed,
+        assessment: Assessment,
         information: Array,
         estimates: dict[str, Estimate],
         spreads: dict[str, Spread],
@@ -318,14 +318,14 @@ class Solution:
     ) -> None:
         self.estimates, self.spreads = estimates, spreads
         self.combinations, self.indistinct = combinations, indistinct
-        self.goodness, self.unsettled, self.without_slopes = assessed.goodness, unsettled, without_slopes
+        self.goodness, self.unsettled, self.without_slopes = assessment.goodness, unsettled, without_slopes
         self.converged, self.sigma_known = converged, sigma_known
         self.held_out: HeldOut | None = None
         self.effort = Effort(1, 1, 0, 0, 0.0)
-        self._model, self._sets, self._x, self._quantile = model, sets, x, assessed.quantile
-        self._covariance, self._information, self._guesses = assessed.covariance, information, dict(guesses)
-        self.discrepancy, self._discrepancy = assessed.discrepancy.listed, assessed.discrepancy.noise
-        self.outliers, self.drifting = assessed.outliers, assessed.drifting
+        self._model, self._sets, self._x, self._quantile = model, sets, x, assessment.quantile
+        self._covariance, self._information, self._guesses = assessment.covariance, information, dict(guesses)
+        self.discrepancy, self._discrepancy = assessment.discrepancy.listed, assessment.discrepancy.noise
+        self.outliers, self.drifting = assessment.outliers, assessment.drifting
         self._loss, self._held = loss, held
 
     @property
