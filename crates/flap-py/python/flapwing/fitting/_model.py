@@ -78,10 +78,10 @@ class Model:
         space: Space,
         keywords: Mapping[str, Any],
         threads: SupportsIndex | None = None,
-        told: Callable[[int], object] | None = None,
+        show_points: Callable[[int], object] | None = None,
         held: Mask | None = None,
     ) -> None:
-        self.names, self.space, self.threads, self.told = names, space, threads, told
+        self.names, self.space, self.threads, self.show_points = names, space, threads, show_points
         settings = _flapwing.settings()
         self.keywords = {
             name if name in settings else names.parameter(name): value
@@ -211,8 +211,8 @@ class Model:
             table = evaluate(self.names.grid, columns, measures=measures, threads=self.threads, **options, **keywords)
             self.ran += len(table)
             self.rhs_evals += int(table.meta["rhs_evals"])
-            if self.told is not None:
-                self.told(self.ran)
+            if self.show_points is not None:
+                self.show_points(self.ran)
             return table
 
         return rows

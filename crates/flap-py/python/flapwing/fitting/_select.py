@@ -256,8 +256,8 @@ def select(
         raise ValueError(f"`budget` is {budget}, but `start` has {len(first)} parameters\nraise the budget")
     coordinates = {name: [one for one in space.coordinates if one.parameter == name] for name in space.parameters}
     with shown(progress) as show:
-        told = None if show is None else lambda ran: show(ran, ran)
-        work = Subsets(names, sets, coordinates, keywords, held, criterion, threads, told)
+        show_points = None if show is None else lambda ran: show(ran, ran)
+        work = Subsets(names, sets, coordinates, keywords, held, criterion, threads, show_points)
         free = work.space(list(first))
         begin = np.clip(np.zeros(len(free)), free.low, free.high)
         unknown = np.full(readings, np.nan)

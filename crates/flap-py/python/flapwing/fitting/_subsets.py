@@ -69,7 +69,8 @@ class Subsets:
     held: Mask
     criterion: str
     threads: SupportsIndex | None
-    told: Callable[[int], object] | None
+    #: The function that reports the number of points that were run.
+    show_points: Callable[[int], object] | None
     fits: int = 0
     at_bounds: dict[str, None] = field(default_factory=dict)
     models: list[Model] = field(default_factory=list)
@@ -87,9 +88,9 @@ class Subsets:
 
     def model(self, space: Space) -> Model:
         before = self.points
-        told = self.told
-        show = None if told is None else lambda ran: told(before + ran)
-        made = Model(self.names, self.sets, space, self.keywords, self.threads, show)
+        show = self.show_points
+        show_points = None if show is None else lambda ran: show(before + ran)
+        made = Model(self.names, self.sets, space, self.keywords, self.threads, show_points)
         self.models.append(made)
         return made
 
