@@ -60,14 +60,16 @@ class Profile:
 
 @dataclass(frozen=True)
 class _Side:
-    """One side of a profile: coordinates, heights, and the flag `is_open`. `is_open` is True if the profile reached the
-    bound of the parameter before the required height.
-    """
+    """One side of a profile."""
 
+    #: The values of the fixed coordinate, and the heights of the profile at these values.
     x: list[float]
     height: list[float]
+    #: The value at which the profile has the required height, or the bound of the parameter.
     end: float
+    #: True if the profile reached the bound of the parameter before the required height.
     is_open: bool
+    #: The best fit that is better than the estimate, if the search found one.
     best: Found | None
 
 
@@ -97,22 +99,20 @@ class _ProfileSearch:
         slope = np.where(np.isfinite(slope), slope, 0.0)
         step = height * error if np.isfinite(error) and error > 0 else np.inf
         inner, outer = (0.0, 0.0), None
-        side = _Side([], [], float(here), False, None)
+        values: list[float] = []
+        heights: list[float] = []
         best: Found | None = None
         reached, is_open = here, False
-        # The cost must be known to a fraction of its rise.
-        tolerance = tolerance_of(0.02, self.found.cost)
         for _ in range(_TRIES):
             limit = abs(end - here)
             step = min(step, limit)
             x = np.clip(self.found.x + slope * way * step, self.space.low, self.space.high)
             x[fixed] = here + way * step
-            tried = minimise(ask, self.space, self.target, x, fixed, steps=6, tolerance=tolerance)
+            tried, rise = self._minimum(ask, x, fixed)
             if tried.cost < self.found.cost - 1e-3 and (best is None or tried.cost < best.cost):
                 best = tried
-            rise = float(np.sqrt(max(0.0, 2.0 * (tried.cost - self.found.cost))))
-            side.x.append(float(here + way * step))
-            side.height.append(rise)
+            values.append(float(x[fixed]))
+            heights.append(rise)
             if rise < height and step >= limit:
                 is_open = True
                 break
@@ -130,19 +130,21 @@ class _ProfileSearch:
                 share = (height - inner[1]) / (outer[1] - inner[1])
                 step = inner[0] + np.clip(share, 0.1, 0.9) * (outer[0] - inner[0])
                 reached = here + way * (inner[0] + share * (outer[0] - inner[0]))
-        if is_open or (outer is None and side.height[-1] < (1 - _NEAR) * height):
+        if is_open or (outer is None and heights[-1] < (1 - _NEAR) * height):
             # The profile reaches the end of the range, or hardly rises.
             reached, is_open = end, True
         for share in _BETWEEN:
-            self._between(ask, fixed, share, tried.x, side, tolerance)
-        return _Side(side.x, side.height, float(reached), is_open, best)
+            x = np.clip(self.found.x + share * (tried.x - self.found.x), self.space.low, self.space.high)
+            values.append(float(x[fixed]))
+            heights.append(self._minimum(ask, x, fixed)[1])
+        return _Side(values, heights, float(reached), is_open, best)
 
-    def _between(self, ask: Ask, fixed: int, share: float, far: Array, side: _Side, tolerance: float) -> None:
-        """Add a value to one side of a profile, between the estimate and the last value of the side."""
-        x = np.clip(self.found.x + share * (far - self.found.x), self.space.low, self.space.high)
-        tried = minimise(ask, self.space, self.target, x, fixed, steps=6, tolerance=tolerance)
-        side.x.append(float(x[fixed]))
-        side.height.append(float(np.sqrt(max(0.0, 2.0 * (tried.cost - self.found.cost)))))
+    def _minimum(self, ask: Ask, begin: Array, fixed: int) -> tuple[Found, float]:
+        """Return the minimum of the cost near `begin` with one fixed coordinate, and the height of the profile."""
+        # The cost must be known to a fraction of its rise.
+        tolerance = tolerance_of(0.02, self.found.cost)
+        ended = minimise(ask, self.space, self.target, begin, fixed, steps=6, tolerance=tolerance)
+        return ended, float(np.sqrt(max(0.0, 2.0 * (ended.cost - self.found.cost))))
 
 
 def profiles(
@@ -170,8 +172,8 @@ def profiles(
         values = np.asarray(coordinate.value(x[order]))
         low, high = coordinate.value(below.end), coordinate.value(above.end)
         if values[0] > values[-1]:
-            values, rise, order = values[::-1], -rise[order][::-1], np.arange(len(values))
-            made.append(Profile(values, rise, high, low, above.is_open, below.is_open))
+            # The parameter falls along the coordinate, so the sides are exchanged.
+            made.append(Profile(values[::-1], -rise[order][::-1], high, low, above.is_open, below.is_open))
         else:
             made.append(Profile(values, rise[order], low, high, below.is_open, above.is_open))
     return made, better
