@@ -180,7 +180,7 @@ def profiles(
 
 
 #: Number of random sets of parameters that are tried for `indistinct`, and number of sets that are used.
-_SETS_LOOKED_AT, _PLACES = 6, 4
+_SETS_TRIED, _SETS_USED = 6, 4
 
 #: The tolerance of the integration for the random sets of parameters.
 _RTOL = 1e-7
@@ -205,21 +205,20 @@ def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> l
     """
     space = model.space
     # A change that affects no reading at any values of the parameters affects none at the estimate.
-    idle, active = _idle(space, at_estimate)
-    if not idle and not len(_null(at_estimate)):
+    if not _idle(space, at_estimate)[0] and not len(_null_space(at_estimate)):
         return []
-    looks = sobol(space, _SETS_LOOKED_AT, seed)
-    answers = model.at(looks, rtol=_RTOL)
+    tried = sobol(space, _SETS_TRIED, seed)
+    answers = model.at(tried, rtol=_RTOL)
     # Motions that do not settle have no derivatives, so the sets with most readings are used.
-    settled = sorted(range(len(looks)), key=lambda place: -np.isfinite(answers[place].values).sum())[:_PLACES]
-    jacobians = [target.jacobian(space, looks[place], answers[place]) for place in settled]
+    used = sorted(range(len(tried)), key=lambda place: -np.isfinite(answers[place].values).sum())[:_SETS_USED]
+    jacobians = [target.jacobian(space, tried[place], answers[place]) for place in used]
     idle, active = _idle(space, np.concatenate(jacobians))
-    told = [f"{label} changes no reading" for label in idle]
+    sentences = [f"{label} changes no reading" for label in idle]
     jacobians = [jacobian[:, active] for jacobian in jacobians]
     if not len(active):
-        return told
-    wanted = min(len(_null(jacobian)) for jacobian in jacobians)
-    slopes = [space.slopes(looks[place])[active] for place in settled]
+        return sentences
+    dimension = min(len(_null_space(jacobian)) for jacobian in jacobians)
+    slopes = [space.slopes(tried[place])[active] for place in used]
     scales = np.array([one.slope(0.0) for one in space.coordinates])[active]
     linear = [jacobian / slope * scales for jacobian, slope in zip(jacobians, slopes)]
     for matrix, where in (
@@ -227,14 +226,14 @@ def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> l
         (np.concatenate(linear), " of their values in the design"),
         (jacobians[0], " about where they are"),
     ):
-        null = _null(matrix)
-        if wanted and len(null) >= wanted:
-            for direction in _sparse(null):
+        null_space = _null_space(matrix)
+        if dimension and len(null_space) >= dimension:
+            for direction in _sparse(null_space):
                 whole = np.zeros(len(space))
                 whole[active] = direction
-                told.append(f"{_in_words(space, whole)}{where} changes no reading")
+                sentences.append(f"{_in_words(space, whole)}{where} changes no reading")
             break
-    return told
+    return sentences
 
 
 def _idle(space: Space, jacobian: Array) -> tuple[list[str], Places]:
@@ -244,7 +243,7 @@ def _idle(space: Space, jacobian: Array) -> tuple[list[str], Places]:
     return [label for label, none in zip(space.labels, is_idle) if none], np.flatnonzero(~is_idle)
 
 
-def _null(jacobian: Array) -> Array:
+def _null_space(jacobian: Array) -> Array:
     """Return the directions in parameter space along which no reading changes."""
     lengths, _, directions, known = decompose(jacobian)
     return np.asarray(directions[~known] / lengths)
