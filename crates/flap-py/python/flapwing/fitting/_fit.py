@@ -176,7 +176,7 @@ def finish(
         spreads=spreads(model.space, target, found.x, answer, assessment.covariance * np.outer(slopes, slopes)),
         sigma_known=sigma_known(sets),
         guesses=guesses,
-        combinations=_intervals.combinations(model.space, jacobian, ("best known", "worst known")),
+        combinations=_intervals.combinations(model.space, jacobian),
         indistinct=_intervals.indistinct(model, target, jacobian, seed),
         unsettled=_unsettled(sets, answer, held),
         without_slopes=int((answer.gaps & target.used & np.isfinite(answer.values)).sum()),

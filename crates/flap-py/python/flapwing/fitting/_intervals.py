@@ -4,7 +4,6 @@ all.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -280,23 +279,23 @@ def _in_words(space: Space, direction: Array) -> str:
     return " with ".join([named[0], ", ".join(named[1:])]) if len(named) > 1 else named[0]
 
 
-def combinations(space: Space, jacobian: Array, labels: Sequence[str]) -> list[str]:
+def combinations(space: Space, jacobian: Array) -> list[str]:
     """Return the combinations of parameters that the data determine best and worst, with the standard error of the
     first parameter of each combination.
     """
     if len(space) < 2:
         return []
     _, sizes, directions = np.linalg.svd(jacobian, full_matrices=False)
-    told = []
-    for label, place in zip(labels, (0, -1)):
+    lines = []
+    for label, place in (("best known", 0), ("worst known", -1)):
         direction = directions[place]
         if sizes[place] <= RANK_TOLERANCE * sizes[0]:
             error = "not determined"
         else:
             largest = int(np.argmax(np.abs(direction)))
             error = f"known to {_size(space.coordinates[largest], abs(direction[largest]) / sizes[place])}"
-        told.append(f"{label}: {_in_words(space, direction)}, {error}")
-    return told
+        lines.append(f"{label}: {_in_words(space, direction)}, {error}")
+    return lines
 
 
 def _size(one: Coordinate, change: float) -> str:
