@@ -35,10 +35,10 @@ def file_columns(path: str | os.PathLike[str]) -> dict[str, list[str]]:
     if not lines:
         raise ValueError(f"{name} is empty\nits first line has the names of the columns")
     headers = [header.strip() for header in lines[0]]
-    for mark, told in _OTHERS.items():
+    for mark, separators in _OTHERS.items():
         if len(headers) == 1 and mark in headers[0]:
             raise ValueError(
-                f"{name} has {told} between its columns\nsave it with commas and decimal points, "
+                f"{name} has {separators} between its columns\nsave it with commas and decimal points, "
                 f"or read it with pandas: pandas.read_csv({name!r}, sep={mark!r})"
             )
     twice = sorted({header for header in headers if headers.count(header) > 1})
@@ -71,8 +71,8 @@ def parameter_cells(names: Names, place: str, header: str, meaning: Meaning, cel
         try:
             return _flapwing.value(names.model, meaning.name, cell)
         except ValueError as error:
-            told = str(error)
-            raise ValueError(told if "\n" in told else f"{told}\n{_IMPOSSIBLE}") from None
+            message = str(error)
+            raise ValueError(message if "\n" in message else f"{message}\n{_IMPOSSIBLE}") from None
 
     if meaning.name in names.options:
         found: Any = [str(cell) for cell in cells]
@@ -120,18 +120,18 @@ def sigma_cells(names: Names, place: str, header: str, meaning: Meaning, cells: 
 def _numbers(place: str, header: str, meaning: Meaning, cells: list[Any], read: Callable[[str], float]) -> Array:
     found = []
     for row, cell in enumerate(cells):
-        told = f"{place}, column `{header}`, row {row + 1}"
+        where = f"{place}, column `{header}`, row {row + 1}"
         if not isinstance(cell, str) or _is_number(cell):
-            found.append(meaning.factor * _number(told, cell))
+            found.append(meaning.factor * _number(where, cell))
         elif not cell.strip():
-            raise ValueError(f"{told}: the cell is empty, but a reading needs a number\n{_MISSING}")
+            raise ValueError(f"{where}: the cell is empty, but a reading needs a number\n{_MISSING}")
         elif not _NUMBER.match(cell):
-            raise ValueError(f"{told}: {cell!r} is not a number\nwrite a number, or text with a unit; or {_MISSING}")
+            raise ValueError(f"{where}: {cell!r} is not a number\nwrite a number, or text with a unit; or {_MISSING}")
         else:
             try:
                 found.append(read(cell))
             except ValueError as error:
-                raise ValueError(f"{told}: {error}") from None
+                raise ValueError(f"{where}: {error}") from None
     return np.array(found)
 
 
@@ -143,18 +143,18 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _number(told: str, cell: Any) -> float:
+def _number(where: str, cell: Any) -> float:
     if isinstance(cell, (bool, np.bool_)) or cell is None:
-        raise ValueError(f"{told} is {cell}, which is not a number\n{_MISSING}")
+        raise ValueError(f"{where} is {cell}, which is not a number\n{_MISSING}")
     try:
         number = float(cell)
     except OverflowError:
-        raise ValueError(f"{told} is too large for a 64-bit float\nwrite a number, or text with a unit") from None
+        raise ValueError(f"{where} is too large for a 64-bit float\nwrite a number, or text with a unit") from None
     except (TypeError, ValueError):
-        raise ValueError(f"{told} is {cell!r}, which is not a number\nwrite a number, or text with a unit") from None
+        raise ValueError(f"{where} is {cell!r}, which is not a number\nwrite a number, or text with a unit") from None
     except Exception as error:
         found = f"{type(cell).__name__}, which raised {raised(error)}"
-        raise TypeError(f"{told} is {found}\nwrite a number, or text with a unit") from error
+        raise TypeError(f"{where} is {found}\nwrite a number, or text with a unit") from error
     if not np.isfinite(number):
-        raise ValueError(f"{told} is {number}, but readings must be finite numbers\n{_MISSING}")
+        raise ValueError(f"{where} is {number}, but readings must be finite numbers\n{_MISSING}")
     return number

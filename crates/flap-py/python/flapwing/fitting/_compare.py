@@ -303,26 +303,26 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
 def _check_same(first_name: str, first: Fit, name: str, other: Fit) -> None:
     """Raise ValueError if two fits have different readings, different standard errors, or different held-out
     readings."""
-    told = f"{first_name} and {name} have different"
+    subject = f"{first_name} and {name} have different"
     remedy = "compare fits of the same data, sigma and hold_out"
     if len(first._sets) != len(other._sets):
-        raise ValueError(f"{told} data sets: {len(first._sets)} and {len(other._sets)}\n{remedy}")
+        raise ValueError(f"{subject} data sets: {len(first._sets)} and {len(other._sets)}\n{remedy}")
     for one, two in zip(first._sets, other._sets):
         if one.measured.keys() != two.measured.keys():
             raise ValueError(
-                f"{told} measures in {one.name}: {', '.join(one.measured)} and {', '.join(two.measured)}\n{remedy}"
+                f"{subject} measures in {one.name}: {', '.join(one.measured)} and {', '.join(two.measured)}\n{remedy}"
             )
         points = one.points.keys() == two.points.keys() and len(one) == len(two) and one.branch == two.branch
         if not points or not all(_equal(cells, two.points[key]) for key, cells in one.points.items()):
-            raise ValueError(f"{told} operating points or branches in {one.name}\n{remedy}")
+            raise ValueError(f"{subject} operating points or branches in {one.name}\n{remedy}")
         for measure, readings in one.measured.items():
             if not _equal(readings, two.measured[measure]):
-                raise ValueError(f"{told} readings of {measure} in {one.name}\n{remedy}")
+                raise ValueError(f"{subject} readings of {measure} in {one.name}\n{remedy}")
             noise, beside = one.noise[measure], two.noise[measure]
             if noise.kind != beside.kind or not _equal(noise.size, beside.size):
-                raise ValueError(f"{told} standard errors of {measure} in {one.name}\n{remedy}")
+                raise ValueError(f"{subject} standard errors of {measure} in {one.name}\n{remedy}")
     if not _equal(first._held, other._held):
-        raise ValueError(f"{told} readings that are held out\n{remedy}")
+        raise ValueError(f"{subject} readings that are held out\n{remedy}")
 
 
 def _equal(one: Any, other: Any) -> bool:

@@ -78,14 +78,13 @@ class Readings:
             try:
                 given: dict[str, Any] = _arguments.columns_of("data", columns)
             except TypeError as error:
-                told = str(error).replace(_arguments.COLUMNS, _ALLOWED)
-                raise TypeError(told) from None
+                raise TypeError(str(error).replace(_arguments.COLUMNS, _ALLOWED)) from None
             self.columns = {header: _listed(header, cells) for header, cells in given.items()}
         self.sigma, self.branch, self.parameter, self.params = sigma, branch, parameter, params
         lengths = {header: len(cells) for header, cells in self.columns.items()}
         if len(set(lengths.values())) > 1:
-            told = ", ".join(f"`{header}` has {length}" for header, length in lengths.items())
-            raise ValueError(f"columns differ in length: {told}\ngive each one cell per row")
+            counts = ", ".join(f"`{header}` has {length}" for header, length in lengths.items())
+            raise ValueError(f"columns differ in length: {counts}\ngive each one cell per row")
         if not lengths or not next(iter(lengths.values())):
             raise ValueError(
                 f"{self.name or 'the data set'} is empty\n"

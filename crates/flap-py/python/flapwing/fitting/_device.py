@@ -51,14 +51,14 @@ def text_of(fit: Solution, data_set: str | None) -> str:
     ]
     before = _flapwing.uncertainty(names.grid)
     # A fitted or newly set value does not keep the old error and source.
-    anew = {*fitted, *fit._model.keywords, *names.grid.varied}
-    kept = {name: error for name, error in before["errors"].items() if name not in anew}
-    told = {name: source for name, source in origins["sources"].items() if name not in anew}
+    new_values = {*fitted, *fit._model.keywords, *names.grid.varied}
+    errors = {name: error for name, error in before["errors"].items() if name not in new_values}
+    sources = {name: source for name, source in origins["sources"].items() if name not in new_values}
     for name, value in {**fit._model.nominal, **_derived(fit, fitted)}.items():
-        known_by = [f"sd = {kept[name]!r}"] if name in kept else []
-        known_by += [f"source = {_text(told[name])}"] if name in told else []
-        if known_by:
-            lines.append(f"{name} = {{ {', '.join([f'value = {_cell(value)}', *known_by])} }}")
+        entries = [f"sd = {errors[name]!r}"] if name in errors else []
+        entries += [f"source = {_text(sources[name])}"] if name in sources else []
+        if entries:
+            lines.append(f"{name} = {{ {', '.join([f'value = {_cell(value)}', *entries])} }}")
         elif name not in fitted and not _same(value, base.get(name)):
             lines.append(f"{name} = {_cell(value)}")
     place = {label: number for number, label in enumerate(fit.estimates)}
@@ -76,7 +76,7 @@ def text_of(fit: Solution, data_set: str | None) -> str:
     coefficients = [
         (*one["between"], one["coefficient"])
         for one in before["correlations"]
-        if all(name in kept for name in one["between"])
+        if all(name in errors for name in one["between"])
     ]
     correlations = fit.correlations
     for number, (name, row) in enumerate(known):

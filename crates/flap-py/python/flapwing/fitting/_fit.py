@@ -267,18 +267,18 @@ def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, he
     the error message has the reason.
     """
     lost = _unsettled(sets, answer, held)
-    told = "too few readings have a settled motion at the best parameters found: "
+    message = "too few readings have a settled motion at the best parameters found: "
     for one, reading in zip(lost, _lost(answer, held)):
         reason = model.reason(int(reading), found.x) if one.status == "invalid" else ""
         if reason:
             count = sum(other.status == "invalid" for other in lost)
             return (
-                f"{told}{count} of {len(answer.values)} are invalid, "
+                f"{message}{count} of {len(answer.values)} are invalid, "
                 f"first {one.data_set} row {one.row}, because {reason}\n"
                 "change these parameters of the design, or give bounds in which they are possible together"
             )
     statuses = ", ".join(sorted({one.status for one in lost}))
-    return f"{told}the others are {statuses}\ngive other bounds, or run the design with flapwing.evaluate"
+    return f"{message}the others are {statuses}\ngive other bounds, or run the design with flapwing.evaluate"
 
 
 def check_options(loss: Any, starts: Any, seed: Any) -> None:

@@ -104,12 +104,12 @@ class Names:
             known = [*self.parameters, *self.measures]
             if len(unknown) == 1:
                 header = unknown[0]
-                told = f"the column `{header}`, which is neither a parameter nor a measure{_hint(header, known)}"
+                columns = f"the column `{header}`, which is neither a parameter nor a measure{_hint(header, known)}"
             else:
                 listed = "; ".join(f"`{header}`{_hint(header, known)}" for header in unknown)
-                told = f"{len(unknown)} columns that are neither parameters nor measures: {listed}"
+                columns = f"{len(unknown)} columns that are neither parameters nor measures: {listed}"
             raise ValueError(
-                f"{place} has {told}\nrename or remove {'it' if len(unknown) == 1 else 'them'}: "
+                f"{place} has {columns}\nrename or remove {'it' if len(unknown) == 1 else 'them'}: "
                 f"flapwing.params({self.model!r}) and flapwing.measures({self.model!r}) list the names"
             )
         return [one for one in found if one is not None]

@@ -237,10 +237,10 @@ def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[Da
     if nominal is None or nominal == 0.0:
         usual = typical_bounds(names.nominal).get(name)
         if usual is None and (low is None or high is None):
-            told = "not set" if nominal is None else "zero"
+            state = "not set" if nominal is None else "zero"
             missing = "bounds" if low is None and high is None else "lower bound" if low is None else "upper bound"
             raise ValueError(
-                f"`{name}` is {told} in the design and has no typical size, so it has no default {missing}\n"
+                f"`{name}` is {state} in the design and has no typical size, so it has no default {missing}\n"
                 f"give free={{{name!r}: (low, high)}}"
             )
         ends = usual or (0.0, 0.0)
@@ -254,8 +254,8 @@ def _coordinates(name: str, free: FreeParameter, names: Names, sets: Sequence[Da
     prior = None if free.prior is None else _prior(names, name, free.prior)
     unit = names.unit(name)
     if prior is not None and not low <= prior[0] <= high:
-        told = f"free[{name!r}]: the prior {prior[0]:g} is outside of the bounds {low:g} to {high:g} {unit}"
-        raise ValueError(f"{told.rstrip()}\ngive bounds that contain it, with some standard errors on both sides")
+        message = f"free[{name!r}]: the prior {prior[0]:g} is outside of the bounds {low:g} to {high:g} {unit}"
+        raise ValueError(f"{message.rstrip()}\ngive bounds that contain it, with some standard errors on both sides")
     if not (free.per_set or _has_spread(free)) or len(sets) == 1:
         return [Coordinate(name, None, name, unit, log, low, high, nominal, prior)]
     return [
@@ -271,14 +271,14 @@ def _check_bounds(name: str, low: float, high: float, free: FreeParameter, unit:
         f"{end:g} {unit}".rstrip() + " (by default)" * (given is None)
         for end, given in ((low, free.low), (high, free.high))
     )
-    told = f"free[{name!r}]: the lower bound {lower} is not less than the upper bound {upper}"
+    message = f"free[{name!r}]: the lower bound {lower} is not less than the upper bound {upper}"
     if free.low is None or free.high is None:
         remedy = "give both bounds"
     elif low == high:
         remedy = f"give a range, or set the parameter by a keyword: fit(..., {name}={low:g})"
     else:
         remedy = "exchange them"
-    raise ValueError(f"{told}\n{remedy}")
+    raise ValueError(f"{message}\n{remedy}")
 
 
 def _value(names: Names, name: str, given: Any) -> float | None:
@@ -303,18 +303,18 @@ def _group(name: str, free: FreeParameter, names: Names, places: Places) -> Grou
     return Group(name, places, size, is_share)
 
 
-def _error(names: Names, name: str, told: str, given: Any) -> tuple[float, bool]:
+def _error(names: Names, name: str, subject: str, given: Any) -> tuple[float, bool]:
     """Return a standard error or a standard deviation as a number and a flag. The flag is True if the number is a share
     of the parameter's value, and False if the number is in SI units."""
     text = given.strip() if isinstance(given, str) else ""
     if isinstance(given, (int, float)) and not 0 < given < np.inf:
-        raise ValueError(f"free[{name!r}]: {told} is {given!r}\nit must be finite and more than zero")
+        raise ValueError(f"free[{name!r}]: {subject} is {given!r}\nit must be finite and more than zero")
     try:
         size = float(text[:-1]) / 100 if text.endswith("%") else _value(names, name, given)
     except ValueError as mistake:
-        raise ValueError(f"free[{name!r}]: {told} is {given!r}\n{mistake}") from None
+        raise ValueError(f"free[{name!r}]: {subject} is {given!r}\n{mistake}") from None
     if size is None or not 0 < size < np.inf:
-        raise ValueError(f"free[{name!r}]: {told} is {given!r}\nit must be finite and more than zero")
+        raise ValueError(f"free[{name!r}]: {subject} is {given!r}\nit must be finite and more than zero")
     return size, text.endswith("%")
 
 

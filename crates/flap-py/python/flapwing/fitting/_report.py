@@ -75,44 +75,44 @@ def _verdict(one: Estimate) -> str:
 def _spread(one: Spread) -> str:
     high = f"{one.high:.2g}" if np.isfinite(one.high) else "open"
     known = "given" if one.is_given else f"95 % from {one.low:.2g} to {high}"
-    told = f"{one.parameter} of all robots: mean {one.mean:.5g}, error {one.error:.2g}, spread {one.value:.2g}"
-    return f"{told} {one.unit}".rstrip() + f" ({known})"
+    line = f"{one.parameter} of all robots: mean {one.mean:.5g}, error {one.error:.2g}, spread {one.value:.2g}"
+    return f"{line} {one.unit}".rstrip() + f" ({known})"
 
 
 def _remarks(fit: Solution) -> list[str]:
-    told = [_spread(one) for one in fit.spreads.values()]
-    told += [f"no such data can determine this: {one}" for one in fit.indistinct]
+    lines = [_spread(one) for one in fit.spreads.values()]
+    lines += [f"no such data can determine this: {one}" for one in fit.indistinct]
     if fit.unsettled:
         listed = ", ".join(f"{one.data_set} row {one.row} ({one.status})" for one in fit.unsettled[:_LISTED])
         more = f" and {len(fit.unsettled) - _LISTED} more" if len(fit.unsettled) > _LISTED else ""
         count = len(fit.unsettled)
         subject = "1 reading does" if count == 1 else f"{count} readings do"
-        told.append(f"{subject} not count, because the motion does not settle there: {listed}{more}")
+        lines.append(f"{subject} not count, because the motion does not settle there: {listed}{more}")
     if fit.without_slopes:
         count = fit.without_slopes
         subject, verb = ("1 reading has", "does") if count == 1 else (f"{count} readings have", "do")
-        told.append(f"{subject} no derivatives at the estimate, and {verb} not narrow the errors")
+        lines.append(f"{subject} no derivatives at the estimate, and {verb} not narrow the errors")
     if not fit.converged:
-        told.append("the search has not converged: give more starts, or narrower bounds")
-    return told
+        lines.append("the search has not converged: give more starts, or narrower bounds")
+    return lines
 
 
 def _quality(fit: Solution) -> list[str]:
     good = fit.goodness
-    told = f"chi-square {good.chi_square:.1f} for {good.freedom} degrees of freedom"
+    quality = f"chi-square {good.chi_square:.1f} for {good.freedom} degrees of freedom"
     if not fit.sigma_known:
-        lines = [f"{told}: standard errors are estimated from the residuals, so it does not test the model"]
+        lines = [f"{quality}: standard errors are estimated from the residuals, so it does not test the model"]
     elif good.p < POOR:
-        lines = [f"{told}, p = {good.p:.2g}: POOR, the model lacks an effect or the standard errors are too small"]
+        lines = [f"{quality}, p = {good.p:.2g}: POOR, the model lacks an effect or the standard errors are too small"]
     elif good.p < DOUBTFUL:
         lines = [
-            f"{told}, p = {good.p:.2g}: doubtful, a correct model has such a value once in {1 / good.p:.0f} fits; "
+            f"{quality}, p = {good.p:.2g}: doubtful, a correct model has such a value once in {1 / good.p:.0f} fits; "
             "look at the residuals"
         ]
     elif good.p > TOO_GOOD:
-        lines = [f"{told}, p = {good.p:.4f}: the given standard errors are too large"]
+        lines = [f"{quality}, p = {good.p:.4f}: the given standard errors are too large"]
     else:
-        lines = [f"{told}, p = {good.p:.2f}: the model agrees with the data"]
+        lines = [f"{quality}, p = {good.p:.2f}: the model agrees with the data"]
     for one in good.structure:
         if one.is_structured:
             lines.append(

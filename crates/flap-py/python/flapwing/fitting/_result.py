@@ -357,8 +357,8 @@ class Fit(Solution):
         return _report.text(self)
 
     def __repr__(self) -> str:
-        told = ", ".join(f"{name}={one.value:.4g}" for name, one in self.estimates.items())
-        return f"<flapwing.Fit of {told}>"
+        values = ", ".join(f"{name}={one.value:.4g}" for name, one in self.estimates.items())
+        return f"<flapwing.Fit of {values}>"
 
     def _repr_html_(self) -> str:
         return _report.html(self)
