@@ -178,9 +178,9 @@ def test_a_film_tells_the_time_and_how_slow_the_wings_are(coupled, wing):
     scene = animation._scene
     # 11 of 12 beats pass in 11 steps: one frame for each beat, instead of at least ten.
     assert scene.slower == pytest.approx(10.0, rel=1e-6)
-    assert scene._told(11) == f"{coupled['time_s'][-1]:.3f} s, wing beats 10 times slower, vehicle 2 times larger"
+    assert scene._caption(11) == f"{coupled['time_s'][-1]:.3f} s, wing beats 10 times slower, vehicle 2 times larger"
     quick = plot.flight_film(coupled, wing, frames=200)
-    assert quick._scene.slower == 1.0 and quick._scene._told(0) == f"{coupled['time_s'][0]:.3f} s"
+    assert quick._scene.slower == 1.0 and quick._scene._caption(0) == f"{coupled['time_s'][0]:.3f} s"
     animation._draw_was_started = quick._draw_was_started = True
 
 

@@ -160,9 +160,9 @@ class Data:
             if len(values) < 2:
                 continue
             middle = values[len(values) // 2]
-            told, other = (repr(str(each)) if is_text(values) else f"{each:.12g}" for each in (middle, values[0]))
+            value, other = (repr(str(each)) if is_text(values) else f"{each:.12g}" for each in (middle, values[0]))
             unit = self.unit(name)
-            value = f"{told} {unit}" if unit else told
+            value = f"{value} {unit}" if unit else value
             warnings.warn(
                 f"drawn: {name} = {value}, the middle of {len(values)} values; "
                 f"{name}={other} as a keyword chooses another{remedy}",
@@ -359,12 +359,12 @@ def _check_lengths(columns: Mapping[str, np.ndarray]) -> None:
     """Raise ValueError if a column is not a list of cells, or the columns differ in length."""
     for name, column in columns.items():
         if column.ndim != 1:
-            told = "a single value" if column.ndim == 0 else f"an array of shape {column.shape}"
-            raise ValueError(f"column `{name}` is {told}\ngive one column with a cell per row for each name")
+            kind = "a single value" if column.ndim == 0 else f"an array of shape {column.shape}"
+            raise ValueError(f"column `{name}` is {kind}\ngive one column with a cell per row for each name")
     lengths = {len(column) for column in columns.values()}
     if len(lengths) > 1:
-        told = ", ".join(f"`{name}` has {len(column)}" for name, column in columns.items())
-        raise ValueError(f"columns differ in length: {told}\ngive each one cell per row")
+        counts = ", ".join(f"`{name}` has {len(column)}" for name, column in columns.items())
+        raise ValueError(f"columns differ in length: {counts}\ngive each one cell per row")
 
 
 def _column(values: Any) -> np.ndarray:

@@ -81,12 +81,12 @@ def number(value: float) -> str:
 
 def wrapped(title: str) -> Iterator[str]:
     """Yield versions of a title with more and more line breaks. The first version of the title is unchanged."""
-    told = [title]
+    versions = [title]
     yield title
     for width in range(max(map(len, title.split("\n"))) - 1, 7, -1):
         lines = "\n".join(
             textwrap.fill(line, width, break_long_words=False, break_on_hyphens=False) for line in title.split("\n")
         )
-        if lines.count("\n") != told[-1].count("\n"):
-            told.append(lines)
+        if lines.count("\n") != versions[-1].count("\n"):
+            versions.append(lines)
             yield lines

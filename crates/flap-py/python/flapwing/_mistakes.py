@@ -60,11 +60,10 @@ def reading(name: str, value: object, allowed: str) -> Iterator[None]:
 def raised(error: BaseException) -> str:
     """Return an exception as one line, for messages."""
     try:
-        first = next(iter(str(error).splitlines()), "")
+        message = next(iter(str(error).splitlines()), "")
     except Exception:
-        first = ""
-    told = f"{first:.200}"
-    return f"{type(error).__name__}: {told}" if told else type(error).__name__
+        message = ""
+    return f"{type(error).__name__}: {message:.200}" if message else type(error).__name__
 
 
 def callers_level() -> int:

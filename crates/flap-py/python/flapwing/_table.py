@@ -26,7 +26,6 @@ SHOWN_ROWS = 10
 #: Number of column names that the text of a table shows in one line.
 SHOWN_NAMES = 8
 
-
 #: Allowed keys of a table, for error messages.
 _KEYS = (
     "columns are chosen by a name or a list of names, "
@@ -228,11 +227,11 @@ class Table:
         of a grid requests are per 1 % of the parameter. A missing derivative is nan, and the column ``gradient_gap``
         has the reason.
         """
-        told = self.meta.get("gradient")
-        if told is None:
+        names = self.meta.get("gradient")
+        if names is None:
             raise ValueError('the table has no derivatives\ncall evaluate with gradient=["hinge_stiffness"]')
-        columns = [self._column(name).cells for name in told["columns"]]
-        return np.stack(columns, axis=-1).reshape(len(self), len(told["of"]), len(told["with_respect_to"]))
+        columns = [self._column(name).cells for name in names["columns"]]
+        return np.stack(columns, axis=-1).reshape(len(self), len(names["of"]), len(names["with_respect_to"]))
 
     @property
     def verdicts(self) -> list[Verdict]:
@@ -296,10 +295,10 @@ class Table:
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())
-        told = f" ({counts})" if counts else ""
+        statuses = f" ({counts})" if counts else ""
         names = list(self._columns)
         shown = ", ".join(names[:SHOWN_NAMES]) + (", …" if len(names) > SHOWN_NAMES else "")
-        return f"<flapwing.Table of {len(self)} rows{told}, {len(names)} columns: {shown}>"
+        return f"<flapwing.Table of {len(self)} rows{statuses}, {len(names)} columns: {shown}>"
 
     def _repr_html_(self) -> str:
         """Return the first rows of the table as HTML, for notebooks."""

@@ -322,8 +322,8 @@ class Statistics:
     def __str__(self) -> str:
         unit = f" {printed(self.unit)}" if self.unit else ""
         shown = ", ".join(f"{percent:g} %: {value:.4g}" for percent, value in self.percentiles.items())
-        told = f"; {shown}" if shown else ""
-        return f"{self.measure}: {self.mean:.4g} ± {self.standard_deviation:.2g}{unit} ({self.designs} designs{told})"
+        designs = f"{self.designs} designs" + (f"; {shown}" if shown else "")
+        return f"{self.measure}: {self.mean:.4g} ± {self.standard_deviation:.2g}{unit} ({designs})"
 
 
 def percentages(given: Any) -> list[float]:

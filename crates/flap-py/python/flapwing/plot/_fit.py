@@ -142,11 +142,11 @@ def _label(name: str, others: dict[str, Any], result: Fit) -> str:
         if len(set(np.asarray(result._model.points[parameter]).tolist())) > 1
     }
     units = {parameter: printed(result._model.names.unit(parameter)) for parameter in varied}
-    told = [
+    values = [
         value if isinstance(value, str) else f"{value:g} {units[parameter]}".rstrip()
         for parameter, value in varied.items()
     ]
-    return ", ".join([*([name] if name else []), *told])
+    return ", ".join([*([name] if name else []), *values])
 
 
 def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) -> None:

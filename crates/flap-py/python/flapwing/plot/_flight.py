@@ -204,7 +204,7 @@ def _draw(ax: Axes, panel: _Panel, runs: Mapping[str, Data]) -> list[Line2D]:
     """Draw a panel, and return the entries of the panel's legend."""
     entries: list[Line2D] = []
     is_input = panel not in GROUPS.values()
-    for (name, told), colour in zip(panel.columns.items(), _style.further_shades(ax, len(panel.columns))):
+    for (name, label), colour in zip(panel.columns.items(), _style.further_shades(ax, len(panel.columns))):
         for style, run in zip(_STYLES, runs.values()):
             if name not in run or not len(run):
                 continue
@@ -214,7 +214,7 @@ def _draw(ax: Axes, panel: _Panel, runs: Mapping[str, Data]) -> list[Line2D]:
                 # Rows of means are at the middle of their beats; samples begin with their beat.
                 options["drawstyle"] = "steps-mid" if time[0] > 0.0 else "steps-post"
                 values = values - values[0]
-            (line,) = ax.plot(time, values, label=told, **options)
+            (line,) = ax.plot(time, values, label=label, **options)
             if all(entry.get_color() != colour for entry in entries):
                 entries.append(line)
             stem = _labels.split_unit(name)[0]

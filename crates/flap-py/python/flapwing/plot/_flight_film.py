@@ -219,7 +219,7 @@ class _Scene:
         self.figure = _style.new_figure(0.6 + 4.2 * len(views), 4.6)
         middle = 0.5 * (self.path.min(axis=0) + self.path.max(axis=0))
         half = 0.5 * flown + 1.05 * self.scale * reach
-        self.title = self.figure.suptitle(self._told(0), fontsize="medium", x=0.02, ha="left")
+        self.title = self.figure.suptitle(self._caption(0), fontsize="medium", x=0.02, ha="left")
         self.views = [
             _View(ax, *VIEWS[view], middle, half)
             for ax, view in zip(self.figure.subplots(1, len(views), squeeze=False)[0], views)
@@ -237,7 +237,7 @@ class _Scene:
         turned = np.einsum("fij,fpj->fpi", self.attitude, points)
         return np.asarray(self.path[:, np.newaxis] + 1e3 * self.scale * turned)
 
-    def _told(self, frame: int) -> str:
+    def _caption(self, frame: int) -> str:
         """Return the text above the picture."""
         parts = [f"{self.times[frame]:.3f} s"]
         if self.slower > 1.0:
@@ -248,7 +248,7 @@ class _Scene:
 
     def draw(self, frame: int) -> list[Any]:
         """Move all parts to their places in a frame, and return the moved parts."""
-        self.title.set_text(self._told(frame))
+        self.title.set_text(self._caption(frame))
         return [self.title, *(part for view in self.views for part in view.draw(self, frame))]
 
 

@@ -88,7 +88,7 @@ def histogram(
     if found is None:
         raise ValueError(f"no row has a number for `{measure}`")
     edges, counts = found["edges"], found["counts"]
-    told = statistics(measure, shown.unit, values[np.isfinite(values)], chosen)
+    summary = statistics(measure, shown.unit, values[np.isfinite(values)], chosen)
 
     given = ax is not None
     with _style.applied(ax):
@@ -99,7 +99,7 @@ def histogram(
         ax.set_ylim(0.0, counts.max() / (1.0 - room))
         ax.margins(x=0.03)
         middle = 0.5 * (edges[0] + edges[-1])
-        for line, (percent, value) in enumerate(told.percentiles.items()):
+        for line, (percent, value) in enumerate(summary.percentiles.items()):
             # Each percentile has its own line of text, so that close percentiles do not overlap.
             top = 1.0 - room * line / len(chosen)
             ax.axvline(value, ymax=top, color=_style.ink(ax), linewidth=_style.width(0.6), linestyle=(0, (4, 3)))
@@ -117,12 +117,12 @@ def histogram(
                 bbox={"facecolor": ax.get_facecolor(), "edgecolor": "none", "pad": 0.6},
             )
         # A bar of errors below the highest bars: from one standard deviation below the mean to one above.
-        text = f"mean ± standard deviation: {_labels.number(told.mean)}"
-        if np.isfinite(told.standard_deviation):
-            text = f"{text} ± {told.standard_deviation:.2g}"
-        spread = np.nan_to_num(told.standard_deviation)
+        text = f"mean ± standard deviation: {_labels.number(summary.mean)}"
+        if np.isfinite(summary.standard_deviation):
+            text = f"{text} ± {summary.standard_deviation:.2g}"
+        spread = np.nan_to_num(summary.standard_deviation)
         bar = ax.errorbar(
-            told.mean,
+            summary.mean,
             0.06 * counts.max(),
             xerr=spread,
             fmt="o",

@@ -285,9 +285,9 @@ class Family:
             self._strokes(ax, rows, 1.02 + place * step, colour, clip_on=False)
         statuses = self.data["status"].astype(str)[np.concatenate([rows for rows, _ in lines])]
         counts = ", ".join(f"{np.sum(statuses == status)} {status}" for status in distinct(statuses))
-        told = f"marks: no periodic motion ({counts})"
+        text = f"marks: no periodic motion ({counts})"
         ax.annotate(
-            told.replace(" (", "\n(") if _style.is_narrow() else told,
+            text.replace(" (", "\n(") if _style.is_narrow() else text,
             (1.0, 1.02 + len(lines) * step),
             xycoords="axes fraction",
             xytext=(0, 2),

@@ -150,16 +150,16 @@ def trajectory(
                 for name in members:
                     shown = data.shown(name)
                     if designs is not None:
-                        told = design
+                        text = design
                     elif label is None:
-                        told = shown.words
+                        text = shown.words
                     else:
-                        told = str(label) if len(members) == 1 else f"{shown.words}, {label}"
+                        text = str(label) if len(members) == 1 else f"{shown.words}, {label}"
                     each.plot(
                         factor * x.factor * run.numbers(time),
                         shown.factor * run.numbers(name),
                         color=colours[name if designs is None else design],
-                        label=_numbered(told, each),
+                        label=_numbered(text, each),
                     )
             words = list(dict.fromkeys([*earlier, *(data.shown(name).words for name in members)]))
             each.set_ylabel(_labels.titled(words[0] if len(words) == 1 else _common(words, unit), unit))
@@ -185,15 +185,15 @@ def trajectory(
 
 def _earlier(ax: Axes, unit: str) -> list[str]:
     """Return the label of the vertical axis, if the axes already have motions in the unit `unit`."""
-    told = ax.get_ylabel()
-    if not told or not ax.lines:
+    text = ax.get_ylabel()
+    if not text or not ax.lines:
         return []
-    words, bracket, other = told.removesuffix(")").rpartition(" (")
+    words, bracket, other = text.removesuffix(")").rpartition(" (")
     if bracket and other != unit:
         raise ValueError(
-            f"`ax` has the vertical axis {told!r}, but the signals are in {unit or 'no unit'}\ndraw them in other axes"
+            f"`ax` has the vertical axis {text!r}, but the signals are in {unit or 'no unit'}\ndraw them in other axes"
         )
-    return [words if bracket else told]
+    return [words if bracket else text]
 
 
 def _factor(ax: Axes, time: Shown) -> float:
