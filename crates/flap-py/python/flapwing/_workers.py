@@ -80,11 +80,11 @@ def call(client: Executor | None, function: Callable[..., Any], design: Any, *ar
     """Return the result of a native function for a design. If a client is given, a worker calls the function."""
     if client is None:
         return function(design, *arguments, **keywords)
-    keywords = {name: _found(value) if name in ("waveform", "stroke") else value for name, value in keywords.items()}
-    task = (function.__name__, _sent(design), arguments, keywords)
+    keywords = {name: _absolute(value) if name in ("waveform", "stroke") else value for name, value in keywords.items()}
+    task = (function.__name__, _portable(design), arguments, keywords)
     with closing(_results(_arguments.executor(client), _call_task, [task])) as results:
         identity, result = next(results)
-    _check(_flapwing.identity(), identity)
+    _check_identity(_flapwing.identity(), identity)
     return result
 
 
@@ -106,13 +106,15 @@ def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def _found(record: Any) -> Any:
-    """Return a waveform or a motion for workers. A path to a file is made absolute."""
+def _absolute(record: Any) -> Any:
+    """Return a waveform or a motion that workers can read. A path to a file is made absolute."""
     return os.path.abspath(record) if isinstance(record, str) else record
 
 
-def _sent(design: Any) -> Any:
-    """Return the design for workers. The name of a preset is unchanged, and the files in a grid get absolute paths."""
+def _portable(design: Any) -> Any:
+    """Return a design that workers can read. The name of a preset is unchanged, and the files in a grid get absolute
+    paths.
+    """
     if isinstance(design, str) and design in _flapwing.presets():
         return design
     try:
@@ -123,7 +125,7 @@ def _sent(design: Any) -> Any:
     return Grid._named(os.path.abspath(grid.name), grid.text)
 
 
-def _check(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
+def _check_identity(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
     """Raise RuntimeError if rows of a worker could differ in the last bits from rows of the present process."""
     for name in ("build", "arithmetic"):
         if ours[name] != theirs[name]:
@@ -188,7 +190,7 @@ def _evaluate_task(
     return _flapwing.evaluate(design, _aligned(given), threads=threads, **_aligned(options))
 
 
-def _stretch(options: dict[str, Any], begin: int, end: int) -> dict[str, Any]:
+def _options_of(options: dict[str, Any], begin: int, end: int) -> dict[str, Any]:
     """Return the options of a batch for the points from `begin` up to, but not including, `end`."""
     states = options["initial_state"]
     return options if states is None else {**options, "initial_state": states[begin:end]}
@@ -205,37 +207,39 @@ def evaluate(
 ) -> NativeTable:
     """Return the rows of the points in the columns `given`. Workers compute the rows."""
     # This call reports mistakes. An empty selection has the same columns and axes as all rows.
-    nothing = _evaluate_task(design, _stretch(options, 0, 0), {name: values[:0] for name, values in given.items()}, 1)
+    empty = _evaluate_task(design, _options_of(options, 0, 0), {name: values[:0] for name, values in given.items()}, 1)
     lengths = {name: len(values) for name, values in given.items()}
     length = next(iter(lengths.values()))
-    each = int(np.prod([len(next(iter(axis.values()))) for axis in nothing["axes"][1:]]))
+    points_per_row = int(np.prod([len(next(iter(axis.values()))) for axis in empty["axes"][1:]]))
     states = options["initial_state"]
-    if len(set(lengths.values())) > 1 or (states is not None and len(states) != length * each):
+    if len(set(lengths.values())) > 1 or (states is not None and len(states) != length * points_per_row):
         return _evaluate_task(design, options, given, 1)
-    count = 1 if threads is None else threads
-    size = max(1, _task_size(client, length * each, count, points_per_task) // max(1, each))
-    design = _sent(design)
+    threads_per_task = 1 if threads is None else threads
+    size = max(
+        1, _task_size(client, length * points_per_row, threads_per_task, points_per_task) // max(1, points_per_row)
+    )
+    design = _portable(design)
     begins = range(0, length, size)
     tasks = (
         (
             design,
-            _stretch(options, begin * each, (begin + size) * each),
+            _options_of(options, begin * points_per_row, (begin + size) * points_per_row),
             {name: values[begin : begin + size] for name, values in given.items()},
-            count,
+            threads_per_task,
         )
         for begin in begins
     )
-    parts = [nothing]
+    parts = [empty]
     with closing(_results(client, _evaluate_task, tasks)) as results:
         for begin, part in zip(begins, results):
-            _check(nothing["meta"], part["meta"])
-            parts.append(_moved(part, begin * each))
+            _check_identity(empty["meta"], part["meta"])
+            parts.append(_renumbered(part, begin * points_per_row))
             if show is not None:
-                show(min(length, begin + size) * each, length * each)
+                show(min(length, begin + size) * points_per_row, length * points_per_row)
     return _joined(parts)
 
 
-def _moved(part: NativeTable, offset: int) -> NativeTable:
+def _renumbered(part: NativeTable, offset: int) -> NativeTable:
     """Return the rows of a part of a batch, with the point numbers of the whole batch. The first point of the part has
     the number `offset`.
     """
@@ -311,17 +315,17 @@ def responses(
 ) -> NativeTable:
     """Return the responses of designs. Workers compute the responses."""
     # This call reports mistakes. It returns no rows.
-    nothing = _flapwing.respond(design, parameter, threads=threads, curves=[], **options)
-    designs = nothing["designs"]
-    design = _sent(design)
-    count = 1 if threads is None else threads
-    tasks = ((design, parameter, options, curve, count) for curve in range(designs))
-    parts = [nothing]
+    empty = _flapwing.respond(design, parameter, threads=threads, curves=[], **options)
+    designs = empty["designs"]
+    design = _portable(design)
+    threads_per_task = 1 if threads is None else threads
+    tasks = ((design, parameter, options, curve, threads_per_task) for curve in range(designs))
+    parts = [empty]
     with closing(_results(client, _respond_task, tasks)) as results:
         for done, part in enumerate(results, 1):
-            _check(nothing["meta"], part["meta"])
+            _check_identity(empty["meta"], part["meta"])
             parts.append(part)
             if show is not None:
                 show(done, designs)
     verdicts = [verdict for part in parts for verdict in part["meta"]["verdicts"]]
-    return {"columns": _columns(parts), "meta": {**nothing["meta"], "verdicts": verdicts}}
+    return {"columns": _columns(parts), "meta": {**empty["meta"], "verdicts": verdicts}}
