@@ -19,16 +19,16 @@ _AXES, _ANGLES = "x, y and z", ("roll", "pitch", "yaw")
 class _Entries(Mapping[str, Any]):
     """Entries of a grid file, by key."""
 
-    _held: dict[str, Any]
+    _entries: dict[str, Any]
 
     def __getitem__(self, key: str) -> Any:
-        return self._held[key]
+        return self._entries[key]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._held)
+        return iter(self._entries)
 
     def __len__(self) -> int:
-        return len(self._held)
+        return len(self._entries)
 
 
 class Wing(_Entries):
@@ -80,26 +80,26 @@ class Wing(_Entries):
     ) -> None:
         if not isinstance(name, str):
             raise refused("name", name, 'it must be the name of a wing, such as "left"')
-        self._held = {"name": name}
+        self._entries = {"name": name}
         if _arguments.flag("mirrored", mirrored):
-            self._held["mirrored"] = True
+            self._entries["mirrored"] = True
         if position is not None:
-            self._held["position"] = _vector("position", position)
+            self._entries["position"] = _vector("position", position)
         if plane is not None:
-            self._held["plane"] = _table("plane", plane, 'angles such as {"pitch": "10 deg"}', _ANGLES)
+            self._entries["plane"] = _table("plane", plane, 'angles such as {"pitch": "10 deg"}', _ANGLES)
         if preset is not None:
             if not isinstance(preset, str):
                 raise refused("preset", preset, "it must be the name of a preset")
-            self._held["preset"] = preset
+            self._entries["preset"] = preset
         if device is not None:
             if not isinstance(device, (str, os.PathLike)):
                 raise refused("device", device, "it must be the path of a device file")
-            self._held["device"] = os.fspath(device)
+            self._entries["device"] = os.fspath(device)
         if params is not None:
-            self._held["params"] = _table("params", params, 'parameters such as {"hinge_stiffness": 1.4e-6}')
+            self._entries["params"] = _table("params", params, 'parameters such as {"hinge_stiffness": 1.4e-6}')
 
     def __repr__(self) -> str:
-        return f"flapwing.Wing({', '.join(f'{key}={value!r}' for key, value in self._held.items())})"
+        return f"flapwing.Wing({', '.join(f'{key}={value!r}' for key, value in self._entries.items())})"
 
 
 class Vehicle(_Entries):
@@ -176,7 +176,7 @@ class Vehicle(_Entries):
         trim: str | None = None,
         damping: bool = False,
     ) -> None:
-        self._held = _design(design)
+        self._entries = _design(design)
         vehicle: dict[str, Any] = {}
         if about is not None:
             vehicle["about"] = _vector("about", about)
@@ -187,9 +187,9 @@ class Vehicle(_Entries):
         if damping:
             vehicle["damping"] = damping
         vehicle["wings"] = [_wing(place, wing) for place, wing in enumerate(_listed(wings))]
-        self._held["vehicle"] = vehicle
+        self._entries["vehicle"] = vehicle
         # This call reports mistakes with their place.
-        self._preset = Grid(self._held).preset
+        self._preset = Grid(self._entries).preset
 
     def linear(
         self,
@@ -249,7 +249,7 @@ class Vehicle(_Entries):
     def __repr__(self) -> str:
         wings = [
             f"{wing['name']} (mirrored)" if wing.get("mirrored") else str(wing["name"])
-            for wing in self._held["vehicle"]["wings"]
+            for wing in self._entries["vehicle"]["wings"]
         ]
         return f"<flapwing.Vehicle of {self._preset}: {', '.join(wings)}>"
 
