@@ -22,9 +22,9 @@ if TYPE_CHECKING:
     import xarray
 
 #: Number of rows that a notebook shows.
-SHOWN_ROWS = 10
+_SHOWN_ROWS = 10
 #: Number of column names that the text of a table shows in one line.
-SHOWN_NAMES = 8
+_SHOWN_NAMES = 8
 
 #: Allowed keys of a table, for error messages.
 _KEYS = (
@@ -41,7 +41,7 @@ def _columns_of(native: NativeTable) -> dict[str, Column]:
     }
 
 
-def _fixed(values: Any) -> np.ndarray[Any, Any]:
+def _read_only(values: Any) -> np.ndarray[Any, Any]:
     """Return values as a read-only array. A table shares the read-only array with all tables that contain a part of the
     rows."""
     array = np.asarray(values).view()
@@ -78,7 +78,8 @@ class Table:
 
     axes: list[dict[str, np.ndarray[Any, Any]]]
     meta: dict[str, Any]
-    _held: dict[str, Column] | None
+    #: The columns; None until they are read from the file `_path`.
+    _loaded: dict[str, Column] | None
     _path: str
 
     def __init__(self, *_: object) -> None:
@@ -101,14 +102,14 @@ class Table:
     @classmethod
     def _new(cls, columns: dict[str, Column] | None, axes: list[dict[str, Any]], meta: dict[str, Any]) -> Table:
         table = object.__new__(cls)
-        table._held = columns
-        table.axes = [{name: _fixed(values) for name, values in axis.items()} for axis in axes]
+        table._loaded = columns
+        table.axes = [{name: _read_only(values) for name, values in axis.items()} for axis in axes]
         table.meta = meta
         return table
 
     @property
     def _columns(self) -> dict[str, Column]:
-        if self._held is None:
+        if self._loaded is None:
             native = _flapwing.read(self._path)
             # Another sweep may have replaced the rows since the call that returned this table.
             # Without a sidecar or a file of points, the origin of the rows in the file is unknown.
@@ -121,16 +122,16 @@ class Table:
                 )
             for text in native["warnings"]:
                 warnings.warn(text, stacklevel=callers_level())
-            self._held = _columns_of(native)
-        return self._held
+            self._loaded = _columns_of(native)
+        return self._loaded
 
     def __getstate__(self) -> dict[str, Any]:
         # A pickle contains the rows, because the file may be missing or different where the pickle is read.
-        return {"_held": self._columns, "axes": self.axes, "meta": self.meta}
+        return {"_loaded": self._columns, "axes": self.axes, "meta": self.meta}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
-        self._held, self.meta = state["_held"], state["meta"]
-        self.axes = [{name: _fixed(values) for name, values in axis.items()} for axis in state["axes"]]
+        self._loaded, self.meta = state["_loaded"], state["meta"]
+        self.axes = [{name: _read_only(values) for name, values in axis.items()} for axis in state["axes"]]
 
     def __len__(self) -> int:
         return next((len(column.cells) for column in self._columns.values()), 0)
@@ -297,7 +298,7 @@ class Table:
         counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())
         statuses = f" ({counts})" if counts else ""
         names = list(self._columns)
-        shown = ", ".join(names[:SHOWN_NAMES]) + (", …" if len(names) > SHOWN_NAMES else "")
+        shown = ", ".join(names[:_SHOWN_NAMES]) + (", …" if len(names) > _SHOWN_NAMES else "")
         return f"<flapwing.Table of {len(self)} rows{statuses}, {len(names)} columns: {shown}>"
 
     def _repr_html_(self) -> str:
@@ -308,7 +309,7 @@ class Table:
         heads = "".join(
             f"<th>{escape(name)}{f' ({escape(units[name])})' if units[name] else ''}</th>" for name in self._columns
         )
-        first = self[:SHOWN_ROWS]
+        first = self[:_SHOWN_ROWS]
         shown = [first[name].tolist() for name in self._columns]
         rows = "".join(
             "<tr>" + "".join(f"<td>{escape(cell_text(column[row]))}</td>" for column in shown) + "</tr>"
