@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ._native import Floats
+from ._types import Array
 
 Complexes = np.ndarray[Any, np.dtype[np.complex128]]
 
@@ -54,21 +54,21 @@ class LinearModel:
         Reasons why the linear model may be inaccurate.
     """
 
-    A: Floats
-    B: Floats
-    C: Floats
-    D: Floats
-    damping: Floats
-    control_matrix: Floats
-    W0: Floats
-    residual: Floats
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+    damping: Array
+    control_matrix: Array
+    W0: Array
+    residual: Array
     eigenvalues: Complexes
     modes: list[str]
     states: list[str]
     state_units: list[str]
     inputs: list[str]
     input_units: list[str]
-    input_values: Floats
+    input_values: Array
     wrench: list[str]
     drive_frequency: float
     floquet_max: float

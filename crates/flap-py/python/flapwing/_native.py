@@ -6,8 +6,6 @@ from typing import Any, TypedDict
 
 import numpy as np
 
-Floats = np.ndarray[Any, np.dtype[np.float64]]
-
 
 class NativeColumn(TypedDict):
     """A column of a table."""
@@ -103,8 +101,8 @@ class NativeWays(TypedDict):
 class NativeBars(TypedDict):
     """A histogram: the edges and the heights of its bars."""
 
-    edges: Floats
-    counts: Floats
+    edges: np.ndarray[Any, np.dtype[np.float64]]
+    counts: np.ndarray[Any, np.dtype[np.float64]]
 
 
 class NativeIdentity(TypedDict):

@@ -46,14 +46,14 @@ class Executor(Protocol):
 #: A state at the start of a drive period: components by name, a row with the components, or a table of one row.
 InitialState = Union[Mapping[str, Any], "Table", Frame, FrameRow]
 
-#: A type for names of measures.
+#: Names of measures.
 Measures = Sequence[str]
 
-#: A type for numbers.
+#: An array of numbers.
 Array = np.ndarray[Any, np.dtype[np.float64]]
 
-#: A type for truth values.
+#: An array of truth values.
 Mask = np.ndarray[Any, np.dtype[np.bool_]]
 
-#: A type for indices of an array.
+#: An array of indices.
 Places = np.ndarray[Any, np.dtype[np.intp]]

@@ -17,7 +17,7 @@ from ._deciding import DecidingMeasurements, DecidingReading, Side, deciding_mea
 from ._result import Fit
 
 #: Smallest difference of AICc at which readings decide between two fits.
-DECIDED = 2.0
+_DECIDED = 2.0
 
 #: Difference of AICc from which the verdict has the word "clearly".
 _CLEAR = 10.0
@@ -121,7 +121,7 @@ class Comparison:
             )
             for place, side in enumerate(self._sides)
         ]
-        near = [one for one in self.fits if one.delta_aicc <= DECIDED]
+        near = [one for one in self.fits if one.delta_aicc <= _DECIDED]
         self.chosen = min(near, key=lambda one: one.parameters).name
         self.is_decided = len(near) == 1
         self.verdict = "\n".join(self._verdict(near))
