@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import warnings
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -144,12 +144,35 @@ class Data:
         """Return one row for each combination of values in the columns `names`. All axes that are not in `names` are
         fixed at their middle values, as in `flap plot`. A warning ends with the text `remedy`.
         """
-        if len(np.unique(self.groups(names))) == len(self):
+        if self._has_one_row_for(names):
             return self
         shown = [self.axis(name) for name in names]
         data = self._at_the_middle([name for name in self.axes() if name not in shown and self.on_a_grid(name)], remedy)
-        data.one_row_for(names)
+        if not data._has_one_row_for(names):
+            raise data._several_rows(names, [name for name in data.axes() if name not in shown])
         return data
+
+    def _has_one_row_for(self, names: Sequence[str]) -> bool:
+        """Return True if no two rows have the same values in all columns `names`."""
+        return len(np.unique(self.groups(names))) == len(self)
+
+    def _several_rows(self, names: Sequence[str], left: Sequence[str]) -> ValueError:
+        """Return the error for several rows with the same values in all columns `names`. `left` has the axes that vary
+        and that the picture does not show.
+        """
+        if not left:
+            return ValueError(f"several rows have the same {' and '.join(f'`{name}`' for name in names)}")
+        first = distinct(self[left[0]])[0]
+        value = repr(str(first)) if is_text(self[left[0]]) else f"{first:g}"
+        lines = [f"  {self.described(name)}: {listed(distinct(self[name]))}" for name in left]
+        return ValueError(
+            "\n".join(
+                [
+                    f"choose one value of each axis that is left, such as {left[0]}={value} as a keyword argument:",
+                    *lines,
+                ]
+            )
+        )
 
     def _at_the_middle(self, axes: Sequence[str], remedy: str = "") -> Data:
         """Return the rows at the middle value of each axis in `axes`. A warning lists the middle values."""
@@ -254,28 +277,6 @@ class Data:
                 raise ValueError(f"no row has {name} = {value}; the values of {self.described(name)} are {values}")
             data = data.rows(mask)
         return data
-
-    def one_row_for(self, names: Sequence[str]) -> None:
-        """Raise ValueError if several rows have the same values in all columns `names`, which means that an axis
-        outside `names` varies.
-        """
-        if len(np.unique(self.groups(names))) == len(self):
-            return
-        shown = [self.axis(name) for name in names]
-        left = [name for name in self.axes() if name not in shown]
-        if not left:
-            raise ValueError(f"several rows have the same {' and '.join(f'`{name}`' for name in names)}")
-        raise ValueError(self.left_over(left))
-
-    def left_over(self, left: Iterable[str]) -> str:
-        """Return an error message with the axes that vary and that a picture does not show."""
-        lines = [f"  {self.described(name)}: {listed(distinct(self[name]))}" for name in left]
-        first = lines[0].strip().split(" ")[0].rstrip(":")
-        value = distinct(self[first])[0]
-        value = repr(str(value)) if is_text(self[first]) else f"{value:g}"
-        return "\n".join(
-            [f"choose one value of each axis that is left, such as {first}={value} as a keyword argument:", *lines]
-        )
 
     def described(self, name: str) -> str:
         """Return the name of a column with the unit of the column."""
