@@ -11,8 +11,7 @@ import numpy as np
 
 from . import _labels
 from ._flapwing import quantity, usual_measure
-from ._mistakes import callers_level, reading, refused, unknown
-from ._mistakes import listed as names_listed
+from ._mistakes import callers_level, known_names, reading, refused, unknown
 from ._sweep import read
 from ._table import Table
 
@@ -128,7 +127,7 @@ class Data:
         """
         found = usual_measure(role, self.measures(), list(taken))
         if found is None:
-            raise ValueError(f"choose the column with `{option}`\n{names_listed(self.columns)}")
+            raise ValueError(f"choose the column with `{option}`\n{known_names(self.columns)}")
         return found
 
     def one_sample(self, shown: Sequence[str] = ()) -> Data:

@@ -171,7 +171,7 @@ def _parameters(design: Design, table: Table) -> dict[str, Any]:
     found = {name: table[name] for name in table if name in known}
     if not found:
         raise ValueError(
-            f"`columns` has no column of a parameter: add one, or give a dictionary\n{_mistakes.listed(table)}"
+            f"`columns` has no column of a parameter: add one, or give a dictionary\n{_mistakes.known_names(table)}"
         )
     return found
 

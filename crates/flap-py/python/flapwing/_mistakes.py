@@ -27,16 +27,16 @@ def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
     names = list(known)
     near = difflib.get_close_matches(str(name), names, n=1)
     hint = f", did you mean `{near[0]}`?" if near else ""
-    return UnknownName(f"there is no {kind} `{name}`{hint}\n{listed(names)}")
+    return UnknownName(f"there is no {kind} `{name}`{hint}\n{known_names(names)}")
 
 
-def listed(names: Iterable[str]) -> str:
-    """Return a text with the first few names of a list."""
+def known_names(names: Iterable[str]) -> str:
+    """Return a sentence with the first few known names, for messages."""
     every = list(names)
+    if not every:
+        return "there are none"
     more = f" and {len(every) - _LISTED} more" if len(every) > _LISTED else ""
-    return (
-        f"there {'is' if len(every) == 1 else 'are'} {', '.join(every[:_LISTED])}{more}" if every else "there are none"
-    )
+    return f"there {'is' if len(every) == 1 else 'are'} {', '.join(every[:_LISTED])}{more}"
 
 
 def refused(name: str, value: object, allowed: str) -> TypeError:
