@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.axes import Axes
 
+from .. import _flapwing
 from .._data import Data, Shown, distinct, listed
-from .._flapwing import ways as _compared
 from . import _style
 from ._checks import checked
 
@@ -77,14 +77,14 @@ def hysteresis(
     data.numbers(parameter)
     x, shown = data.shown(parameter), data.shown(y)
     values = np.where(data.measured(), shown.values, np.nan)
-    branches = data["branch"].astype(str)
+    names = data["branch"].astype(str)
     bistable = data.numbers("bistable") == 1.0
-    parts = {name: branches == name for name in ("up", "down", "unstable")}
-    ways = {name: _Way(x.values[rows], values[rows], bistable[rows]) for name, rows in parts.items()}
-    up, down = ways["up"], ways["down"]
+    rows = {name: names == name for name in ("up", "down", "unstable")}
+    branches = {name: _Branch(x.values[mask], values[mask], bistable[mask]) for name, mask in rows.items()}
+    up, down = branches["up"], branches["down"]
     if not up.x.size and not down.x.size:
         raise ValueError("the table has neither a branch up nor a branch down")
-    compared = _compared((up.x, up.y, up.bistable), (down.x, down.y, down.bistable))
+    compared = _flapwing.ways((up.x, up.y, up.bistable), (down.x, down.y, down.bistable))
     bands, up.jumps, down.jumps = compared["bands"], compared["up"], compared["down"]
 
     given = ax is not None
@@ -97,10 +97,10 @@ def hysteresis(
         # The branch down often coincides with the branch up, so the line below is wider.
         for name, width in (("up", 1.9), ("down", 0.8)):
             colour = _style.BRANCHES[name]
-            way = ways[name]
-            if not way.x.size:
+            branch = branches[name]
+            if not branch.x.size:
                 continue
-            xs, ys = _with_gaps(way.x, way.y, way.jumps)
+            xs, ys = _with_gaps(branch.x, branch.y, branch.jumps)
             ax.plot(
                 xs,
                 ys,
@@ -110,10 +110,10 @@ def hysteresis(
                 markersize=_style.size(0.6 if name == "up" else 0.4),
                 label=name,
             )
-            for i in way.jumps:
-                _jump(ax, way, i, colour)
-            _along_the_way(ax, way, colour, bands)
-        unstable = ways["unstable"]
+            for i in branch.jumps:
+                _jump(ax, branch, i, colour)
+            _arrow_along(ax, branch, colour, bands)
+        unstable = branches["unstable"]
         if unstable.x.size:
             ax.plot(
                 unstable.x,
@@ -123,7 +123,7 @@ def hysteresis(
                 linestyle=(0, (4, 2.5)),
                 label="unstable",
             )
-        _mark(ax, data, x, branches)
+        _mark_missing(ax, data, x, names)
         ax.set_xlabel(x.label)
         ax.set_ylabel(shown.label)
         ax.margins(x=0.02, y=0.08)
@@ -131,14 +131,14 @@ def hysteresis(
     return ax
 
 
-class _Way:
+class _Branch:
     """The rows of a branch, in the order of computation."""
 
     def __init__(self, x: np.ndarray, y: np.ndarray, bistable: np.ndarray) -> None:
         self.x, self.y = np.ascontiguousarray(x, float), np.ascontiguousarray(y, float)
         self.bistable = np.ascontiguousarray(bistable)
+        #: The rows after which the branch jumps to the motion of the opposite branch.
         self.jumps: list[int] = []
-        """The rows after which the branch jumps to the motion of the opposite branch."""
 
 
 def _one_design(data: Data) -> None:
@@ -162,26 +162,27 @@ def _with_gaps(x: np.ndarray, y: np.ndarray, after: list[int]) -> tuple[np.ndarr
     return np.insert(x, places, np.nan), np.insert(y, places, np.nan)
 
 
-def _jump(ax: Axes, way: _Way, i: int, colour: str) -> None:
+def _jump(ax: Axes, branch: _Branch, i: int, colour: str) -> None:
     """Draw a light vertical arrow for a jump of a branch, halfway between the rows before and after the jump."""
-    x = 0.5 * (way.x[i] + way.x[i + 1])
+    x = 0.5 * (branch.x[i] + branch.x[i + 1])
+    before, after = (x, branch.y[i]), (x, branch.y[i + 1])
     look = {"arrowstyle": "->", "color": colour, "linestyle": (0, (3, 3)), "alpha": 0.7, "shrinkA": 0, "shrinkB": 0}
-    ax.annotate("", xy=(x, way.y[i + 1]), xytext=(x, way.y[i]), arrowprops={**look, "linewidth": _style.width(0.5)})
+    ax.annotate("", xy=after, xytext=before, arrowprops={**look, "linewidth": _style.width(0.5)})
 
 
-def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, float]]) -> None:
+def _arrow_along(ax: Axes, branch: _Branch, colour: str, bands: list[tuple[float, float]]) -> None:
     """Draw an arrowhead on the line of a branch. The arrowhead is in a bistable band, or after a third of the branch if
     the response has no bistable band.
     """
-    count = len(way.x)
+    count = len(branch.x)
     if count < 3:
         return
     place = count // 3
     if bands:
         low, high = max(bands, key=lambda band: band[1] - band[0])
-        place = int(np.argmin(np.abs(way.x - 0.5 * (low + high))))
+        place = int(np.argmin(np.abs(branch.x - 0.5 * (low + high))))
     i = min(max(place, 1), count - 2)
-    if not np.isfinite(way.y[i - 1 : i + 2]).all() or {i - 1, i} & set(way.jumps):
+    if not np.isfinite(branch.y[i - 1 : i + 2]).all() or {i - 1, i} & set(branch.jumps):
         return
     head = {
         "arrowstyle": "-|>",
@@ -191,15 +192,15 @@ def _along_the_way(ax: Axes, way: _Way, colour: str, bands: list[tuple[float, fl
         "shrinkA": 0,
         "shrinkB": 0,
     }
-    ax.annotate("", xy=(way.x[i + 1], way.y[i + 1]), xytext=(way.x[i - 1], way.y[i - 1]), arrowprops=head)
+    ax.annotate("", xy=(branch.x[i + 1], branch.y[i + 1]), xytext=(branch.x[i - 1], branch.y[i - 1]), arrowprops=head)
 
 
-def _mark(ax: Axes, data: Data, x: Shown, branches: np.ndarray) -> None:
+def _mark_missing(ax: Axes, data: Data, x: Shown, names: np.ndarray) -> None:
     """Draw marks above the axes, at values of x at which a branch has no periodic motion."""
     without = ~data.measured()
     shown = False
     for place, name in enumerate(("up", "down")):
-        mask = without & (branches == name)
+        mask = without & (names == name)
         if mask.any():
             label = "_" if shown else "no periodic motion"
             _style.marks(
