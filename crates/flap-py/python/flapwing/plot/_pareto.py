@@ -108,7 +108,7 @@ def pareto(
         size = points(ax, data, x.values, y.values, color, cmap, colorbar)
         order = np.flatnonzero(front)
         order = order[np.lexsort((y.values[order], x.values[order]))]
-        plural = "design" if len(data) == 1 else "designs"
+        designs = "design" if len(data) == 1 else "designs"
         ax.plot(
             x.values[order],
             y.values[order],
@@ -122,14 +122,14 @@ def pareto(
             markerfacecolor="none",
             markeredgewidth=_style.width(0.4),
             zorder=0.9,
-            label=f"front ({len(order)} of {len(data)} {plural})",
+            label=f"front ({len(order)} of {len(data)} {designs})",
         )
         for label, shown, which in ((ax.set_xlabel, x, names[0]), (ax.set_ylabel, y, names[1])):
             label(f"{shown.label}, {'less' if which in smaller else 'more'} is better")
         handles, _ = ax.get_legend_handles_labels()
         others = [name for name in objectives if name not in names]
-        said = ", ".join(f"{data.shown(name).words} ({'less' if name in smaller else 'more'})" for name in others)
-        title: Any = {"title": f"further objectives of the front: {said}", "alignment": "left"} if others else {}
+        further = ", ".join(f"{data.shown(name).words} ({'less' if name in smaller else 'more'})" for name in others)
+        title: Any = {"title": f"further objectives of the front: {further}", "alignment": "left"} if others else {}
         # Inside, in a corner without designs.
         corner = f"{'lower' if names[1] in smaller else 'upper'} {'left' if names[0] in smaller else 'right'}"
         _style.legend(ax, legend, given, inside=corner, handles=handles, ncols=4, borderaxespad=0.2, **title)
