@@ -252,7 +252,7 @@ def _common(words: list[str], unit: str) -> str:
     if unit == "°":
         return "Angle"
     if len(words) <= 2:
-        return ", ".join([words[0], *(word[:1].lower() + word[1:] for word in words[1:])])
+        return ", ".join([words[0], *map(_labels.lowered, words[1:])])
     last = {word.split(",")[0].split(" ")[-1].lower() for word in words}
     return last.pop().capitalize() if len(last) == 1 else "Value"
 
