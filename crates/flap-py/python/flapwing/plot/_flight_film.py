@@ -131,23 +131,21 @@ def _wings(data: Data, vehicle: Any, motion: Any) -> list[_Wing]:
         changed = {name: value for name, value in data.meta.get("keywords", {}).items() if name not in solver}
         vehicle = {**entries, "params": {**entries.get("params", {}), **changed}}
     grid = vehicle if isinstance(vehicle, _flapwing.Grid) else _flapwing.Grid(vehicle)
-    held = tomllib.loads(grid.text).get("vehicle", {}).get("wings", [])
-    if not held:
+    wings = tomllib.loads(grid.text).get("vehicle", {}).get("wings", [])
+    if not wings:
         raise ValueError("`vehicle` has one wing\nit must be a vehicle, such as a flapwing.Vehicle")
+    sides = {wing["name"]: -1.0 if wing.get("mirrored") else 1.0 for wing in wings}
     values = {one["name"]: one["value"] for one in _flapwing.params(grid)}
-    named = several(motion, None)
-    if named is None:
-        named = dict.fromkeys((wing["name"] for wing in held), Data.of(motion))
-    for name in named:
-        if all(wing["name"] != name for wing in held):
-            raise unknown("wing", name, [wing["name"] for wing in held])
-    wings: list[_Wing] = []
-    for wing in held:
-        name = wing["name"]
-        if name not in named:
+    motions = several(motion, None)
+    if motions is None:
+        motions = dict.fromkeys(sides, Data.of(motion))
+    for name in motions:
+        if name not in sides:
+            raise unknown("wing", name, sides)
+    for name in sides:
+        if name not in motions:
             raise ValueError(f"`motion` has no trajectory of the wing `{name}`\ngive one trajectory for each wing")
-        wings.append(_wing(name, -1.0 if wing.get("mirrored") else 1.0, values, named[name]))
-    return wings
+    return [_wing(name, side, values, motions[name]) for name, side in sides.items()]
 
 
 def _wing(name: str, side: float, values: Mapping[str, Any], motion: Data) -> _Wing:
