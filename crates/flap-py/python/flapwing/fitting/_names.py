@@ -74,7 +74,9 @@ class Names:
         self.measures = {measure["name"]: measure["unit"] for measure in _flapwing.measures(self.model)}
 
     def is_measure(self, name: str) -> bool:
-        """Return True for a measure of the model or of the design's ``[measure]``."""
+        """Return True for a measure of the model or of the design's ``[measure]``. A measure of ``[measure]`` is added
+        to `measures`, without a unit.
+        """
         if name in self.measures:
             return True
         try:
@@ -124,10 +126,10 @@ class Names:
         for mark, rest in (("sigma_", name.removeprefix("sigma_")), ("_sigma", name.removesuffix("_sigma"))):
             if rest != name and mark in name:
                 is_share = unit == "%"
-                found = self._found(place, header, rest, None if is_share else unit)
+                found = self._parameter_or_measure(place, header, rest, None if is_share else unit)
                 if found is not None and found.kind == "measure":
                     return Meaning("sigma", found.name, 0.01 if is_share else found.factor, is_share)
-        return self._found(place, header, name, unit)
+        return self._parameter_or_measure(place, header, name, unit)
 
     def check_measure(self, name: str) -> None:
         """Raise ValueError with the most similar name if `name` is not a measure."""
@@ -140,7 +142,8 @@ class Names:
     def _is_known(self, name: str) -> bool:
         return name in self.parameters or self.is_measure(name)
 
-    def _found(self, place: str, header: str, name: str, unit: str | None) -> Meaning | None:
+    def _parameter_or_measure(self, place: str, header: str, name: str, unit: str | None) -> Meaning | None:
+        """Return the meaning of a column that is not a standard error, or None for an unknown name."""
         stem, ending = _flapwing.split_unit(name)
         for candidate, own in ((name, None), (stem, ending)):
             candidate = self._renamed(_SHORT.get(candidate, candidate))
