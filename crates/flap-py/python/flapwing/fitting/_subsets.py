@@ -200,14 +200,12 @@ class Subsets:
         known = np.linalg.norm(across, axis=0) > _search.RANK_TOLERANCE * np.linalg.norm(added, axis=0)
         across[:, ~known] = 0.0
         step = np.linalg.lstsq(across, -rest, rcond=None)[0]
-        origin = [space.coordinates[number] for number in place]
-        low, high = (np.array([one.at(getattr(one, end)) for one in origin]) for end in ("low", "high"))
-        step = np.clip(step, np.minimum(low, 0.0), np.maximum(high, 0.0))
+        linear = Space([space.coordinates[number] for number in place])
+        step = np.clip(step, np.minimum(linear.low, 0.0), np.maximum(linear.high, 0.0))
         change = across @ step
         gain = float(rest @ rest - np.sum((rest + change) ** 2))
         moved = x - left @ (residuals + added @ step)
         active = Space(space.coordinates[: len(x)])
-        begin = [np.clip(moved, active.low, active.high)]
-        values = [float(np.clip(one.value(size), one.low, one.high)) for one, size in zip(origin, step)]
-        begin.append(np.array([one.at(value) for one, value in zip(own, values)]))
-        return Effect(max(0.0, gain), np.concatenate(begin), change)
+        added_begin = [one.at(float(value)) for one, value in zip(own, linear.values(step))]
+        begin = np.concatenate([np.clip(moved, active.low, active.high), added_begin])
+        return Effect(max(0.0, gain), begin, change)
