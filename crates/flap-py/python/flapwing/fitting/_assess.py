@@ -38,7 +38,7 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     }
     structure = tests(layout, measures, scaled)
     structured = {one.measure for one in structure if one.is_structured}
-    is_far = _far(measures, structured, scaled, target.loss)
+    is_outlier = _outlier_mask(measures, structured, scaled, target.loss)
     residuals = _solution.of_residuals(sets, units, difference, scaled, counted, structured)
     jacobian = target.jacobian(model.space, found.x, answer)
     readings = int(target.used.sum())
@@ -51,11 +51,11 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     inverse, lost = _search.covariance_of(jacobian)
     known = _search.rank(jacobian)
     good = _solution.goodness(residuals, structure, every[readings:], known, sigma_known(sets))
-    fitted = counted & ~is_far
+    fitted = counted & ~is_outlier
     discrepancy = Discrepancies([], {}, inverse, np.inf)
     if structured or good.p < DOUBTFUL:
         if target.loss != "linear":
-            measures = {measure: chosen[~is_far[chosen]] for measure, chosen in measures.items()}
+            measures = {measure: chosen[~is_outlier[chosen]] for measure, chosen in measures.items()}
         discrepancy = of_residuals(
             layout,
             measures,
@@ -84,13 +84,13 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
         jacobian,
         discrepancy,
         good,
-        _listed(sets, scaled, is_far),
+        _outliers(sets, scaled, is_outlier),
         between_sets(model.space, model.asked.of_set[fitted], scaled[fitted], slopes[fitted]),
         _quantile(discrepancy.freedom if sigma_known(sets) else min(good.freedom, discrepancy.freedom)),
     )
 
 
-def _far(measures: Mapping[str, Places], structured: set[str], scaled: Array, loss: str) -> Mask:
+def _outlier_mask(measures: Mapping[str, Places], structured: set[str], scaled: Array, loss: str) -> Mask:
     """Return a mask of the outliers.
 
     If a typical residual of a measure is larger than the standard error, the limit for outliers is multiplied by
@@ -98,20 +98,20 @@ def _far(measures: Mapping[str, Places], structured: set[str], scaled: Array, lo
     the model lacks an effect, the typical residual is the root mean square.
     """
     limit = _OUTLYING if loss == "linear" else _OUTLYING_ROBUST
-    far = np.zeros(len(scaled), np.bool_)
+    mask = np.zeros(len(scaled), np.bool_)
     for measure, chosen in measures.items():
         size = np.abs(scaled[chosen])
         if len(size):
             typical = np.sqrt(np.mean(size**2)) if measure in structured else 1.4826 * np.median(size)
-            far[chosen] = size > limit * max(1.0, float(typical))
-    return far
+            mask[chosen] = size > limit * max(1.0, float(typical))
+    return mask
 
 
-def _listed(sets: list[DataSet], scaled: Array, is_far: Mask) -> list[Outlier]:
+def _outliers(sets: list[DataSet], scaled: Array, is_outlier: Mask) -> list[Outlier]:
     """Return the outliers, with the largest residual first."""
     places = places_of(sets)
     found = []
-    for reading in sorted(np.flatnonzero(is_far).tolist(), key=lambda reading: -abs(scaled[reading])):
+    for reading in sorted(np.flatnonzero(is_outlier).tolist(), key=lambda reading: -abs(scaled[reading])):
         one, measure, row = places[reading]
         found.append(Outlier(one.name, measure, row + 1, float(scaled[reading])))
     return found
