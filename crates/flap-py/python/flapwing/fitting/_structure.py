@@ -111,19 +111,19 @@ def _probability(layout: Layout, parameter: str, chosen: Places, scaled: Array) 
     found = []
     first, second = layout.pairs(parameter, chosen)
     if len(first) >= _FEWEST:
-        found.append(_of_pairs(scaled[first], scaled[second], scaled[chosen]))
+        found.append(_probability_of_pairs(scaled[first], scaled[second], scaled[chosen]))
     ranks = layout.ranks[parameter][chosen]
     count = len(np.unique(ranks))
     if len(chosen) >= _FEWEST and 2 <= count <= len(chosen) // 4 and np.ptp(scaled[chosen]) > 0.0:
         found.append(float(f_oneway(*(scaled[chosen][ranks == rank] for rank in np.unique(ranks))).pvalue))
     if not found and len(chosen) > _FEWEST:
         # No points share their other parameters, so all points are neighbours along the parameter.
-        noise = scaled[chosen][np.argsort(ranks, kind="stable")]
-        found.append(_of_pairs(noise[:-1], noise[1:], noise))
+        residuals = scaled[chosen][np.argsort(ranks, kind="stable")]
+        found.append(_probability_of_pairs(residuals[:-1], residuals[1:], residuals))
     return min(1.0, len(found) * min(found)) if found else None
 
 
-def _of_pairs(first: Array, second: Array, noise: Array) -> float:
+def _probability_of_pairs(first: Array, second: Array, residuals: Array) -> float:
     """Return the probability that pure noise gives pairs of neighbours that are at least as similar as the given pairs.
 
     The probability is computed from the number of pairs with different signs, and from the mean product of the pairs.
@@ -131,7 +131,7 @@ def _of_pairs(first: Array, second: Array, noise: Array) -> float:
     from scipy.stats import binom, norm
 
     products = first * second
-    square = float(np.mean(noise**2))
+    square = float(np.mean(residuals**2))
     signs = products[products != 0.0]
     if square == 0.0 or not len(signs):
         return 1.0
