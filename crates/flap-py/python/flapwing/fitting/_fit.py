@@ -119,7 +119,7 @@ def fit(
     sets = _data.resolve(data, names, sigma)
     space = _parameters.space(free, names, sets, keywords)
     measured = _data.all_readings(sets)
-    held = _held.held_rows(hold_out, sets, seed, len(measured), names)
+    held = _held.held_out_readings(hold_out, sets, seed, len(measured), names)
     with shown(progress) as show:
         model = Model(names, sets, space, keywords, threads, None if show is None else lambda ran: show(ran, ran), held)
         _check_count(model, held)

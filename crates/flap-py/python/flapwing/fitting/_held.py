@@ -18,7 +18,7 @@ _HOLD_OUT = (
 )
 
 
-def held_rows(hold_out: Any, sets: Sequence[DataSet], seed: int, count: int, names: Names) -> Mask:
+def held_out_readings(hold_out: Any, sets: Sequence[DataSet], seed: int, count: int, names: Names) -> Mask:
     """Return a mask, which is True for readings that are predicted instead of fitted."""
     held = np.zeros(count, np.bool_)
     if hold_out is None:

@@ -250,7 +250,7 @@ def select(
         )
     _check_values(names, more)
     readings = sum(len(one) * len(one.measured) for one in sets)
-    held = _held.held_rows(hold_out, sets, seed, readings, names)
+    held = _held.held_out_readings(hold_out, sets, seed, readings, names)
     most = max(len(first) + 1, int((~held).sum()) // 5) if budget is None else int(budget)
     if most < len(first):
         raise ValueError(f"`budget` is {budget}, but `start` has {len(first)} parameters\nraise the budget")
