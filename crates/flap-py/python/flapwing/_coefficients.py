@@ -19,7 +19,6 @@ _COLUMNS = ("lift_coefficient", "drag_coefficient", "pressure")
 #: Columns of the attack angle, with their units (rad).
 _ANGLES = {"attack_deg": np.pi / 180.0, "attack_rad": 1.0}
 
-
 #: Smallest ratio of the singular values of a law at the angles of a table that determines the coefficients of the law.
 _DETERMINED = 1e-5
 
@@ -129,7 +128,7 @@ def _attack(data: Data) -> Array:
     if len(given) != 1:
         raise ValueError("the table must have one column `attack_deg` or `attack_rad` with the attack angles")
     attack = data.numbers(given[0]) * _ANGLES[given[0]]
-    # Rounding of the unit.
+    # Conversion to radians rounds the ends of the range.
     if not ((attack >= -1e-9) & (attack <= 0.5 * np.pi + 1e-9)).all():
         raise ValueError(f"`{given[0]}` must contain attack angles from 0 to 90 deg only")
     if len(np.unique(attack)) < 4:

@@ -10,6 +10,7 @@ import numpy as np
 from ._table import Table
 from ._types import Array
 
+#: Columns of force and torque without their derivatives, and the factors to SI units.
 _WRENCH = {
     "force_forward_mn": 1e-3,
     "force_left_mn": 1e-3,
@@ -18,6 +19,8 @@ _WRENCH = {
     "torque_pitch_unm": 1e-6,
     "torque_yaw_unm": 1e-6,
 }
+
+#: Velocities and rates of the body, in the order of the states.
 _MOTION = ["velocity_forward", "velocity_left", "velocity_up", "rate_roll", "rate_pitch", "rate_yaw"]
 
 
