@@ -140,14 +140,14 @@ def state(design: Design, initial_state: Any) -> dict[str, Any] | None:
         raise ValueError(
             f"`initial_state` lacks the columns {', '.join(missing)}\na trajectory of the same model has them"
         )
-    components = {name: _one(f"initial_state[{name!r}]", found[name]) for name in names}
-    # As in batches, a state with an unknown component is replaced by rest.
-    return (
-        {} if any(_is_missing(f"initial_state[{name!r}]", value) for name, value in components.items()) else components
-    )
+    components = {name: _only_value(f"initial_state[{name!r}]", found[name]) for name in names}
+    if any(_is_missing(f"initial_state[{name!r}]", value) for name, value in components.items()):
+        # As in batches, the motion begins at rest if a component is unknown.
+        return {}
+    return components
 
 
-def _one(name: str, value: Any) -> Any:
+def _only_value(name: str, value: Any) -> Any:
     """Return the value of a column that has one row. A value that is not a column is returned unchanged."""
     with reading(name, value, "it must be a number, text with a unit, or a column of one row"):
         rows = len(value) if not isinstance(value, str) and hasattr(value, "__len__") else None
