@@ -124,7 +124,7 @@ def evaluate(
     >>> slopes.shape
     (2,)
     """
-    given = _given(design, columns)
+    given = _columns_of_points(design, columns)
     options: dict[str, Any] = {
         "measures": _arguments.measures(measures),
         "gradient": _arguments.gradient(gradient),
@@ -142,11 +142,11 @@ def evaluate(
     return Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []}, keywords=keywords)
 
 
-def _given(design: Design, columns: Any) -> dict[str, Any]:
-    """Return the parameters of the points by name: arrays of float64, or lists of values that are not numbers. All
-    arrays and lists have the same length.
+def _columns_of_points(design: Design, columns: Any) -> dict[str, Any]:
+    """Return the parameters of the points by name: arrays of float64, or lists of values that are not numbers. A single
+    value is repeated. The compiled module checks that the columns have equal lengths.
     """
-    given: dict[str, Any] = {}
+    lists: dict[str, Any] = {}
     constants: dict[str, Any] = {}
     found = _parameters(design, columns) if isinstance(columns, Table) else _arguments.columns_of("columns", columns)
     for name, values in found.items():
@@ -154,13 +154,13 @@ def _given(design: Design, columns: Any) -> dict[str, Any]:
         if isinstance(values, (str, bytes)) or _dimensions(name, values) == 0:
             constants[name] = values
         else:
-            given[name] = _column(name, values)
-    if constants and given:
-        length = len(next(iter(given.values())))
+            lists[name] = _column(name, values)
+    if constants and lists:
+        length = len(next(iter(lists.values())))
         for name, value in constants.items():
-            given[name] = [value] * length if isinstance(value, str) else np.full(length, _number(name, value))
-        return {name: given[name] for name in found}
-    return given or {name: [value] for name, value in constants.items()}
+            lists[name] = [value] * length if isinstance(value, str) else np.full(length, _number(name, value))
+        return {name: lists[name] for name in found}
+    return lists or {name: [value] for name, value in constants.items()}
 
 
 def _parameters(design: Design, table: Table) -> dict[str, Any]:
