@@ -89,9 +89,9 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     for name, (low, high) in typical_bounds(listed).items():
         value = listed[name]
         if is_number(value) and name not in _OF_FORCES:
-            # A damping of a preset that is not zero has a value of its own.
-            is_own = low == 0.0 and value != 0.0
-            found[name] = FreeParameter() if is_own or not low <= value <= high else FreeParameter(low, high)
+            # A term that the design sets gets the default bounds of `fit`, around its value.
+            is_set = low == 0.0 and value != 0.0
+            found[name] = FreeParameter() if is_set or not low <= value <= high else FreeParameter(low, high)
     return found
 
 
