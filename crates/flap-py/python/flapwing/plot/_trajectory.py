@@ -167,6 +167,7 @@ def trajectory(
             # The first legend is sufficient for all axes if colours stand for designs.
             if (len(each.lines) > 1 or label is not None) and (designs is None or each is over_time[0]):
                 _style.legend(each, legend, ax is not None, ncols=3, borderaxespad=0.1)
+        # Axes whose motions have another unit of time keep their label.
         if factor == 1.0:
             over_time[-1].set_xlabel(x.label)
         for each, name in zip(beside, portraits):
