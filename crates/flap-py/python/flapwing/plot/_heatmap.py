@@ -136,7 +136,7 @@ def heatmap(
     value = data.usual("benefit", "value") if value is None else value
     data.numbers(value)
     x, y = _two_axes(data, x, y)
-    every = data
+    unreduced = data
     if reduce is None:
         try:
             data = data.for_picture([x, y], ', and reduce="max" draws the largest of all')
@@ -161,7 +161,7 @@ def heatmap(
         if annotate and np.isfinite(picture.values).any():
             smallest = reduce == "min" or (reduce != "max" and better(value) < 0)
             row, place = picture.best(smallest)
-            names = [x, y, *(_combined(every, x, y) if reduce in ("max", "min") else [])]
+            names = [x, y, *(_combined(unreduced, x, y) if reduce in ("max", "min") else [])]
             entries.append(_star(ax, place, _best_text(data, row, value, names)))
         picture.finish(ax)
         if entries:
