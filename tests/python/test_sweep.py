@@ -10,6 +10,7 @@ import threading
 import flapwing
 import numpy as np
 import pytest
+from flapwing import analysis
 from grids import GRID
 
 QUICK = 'preset = "ozaki2018-large"\n[axes]\ndrive_frequency = { from = 95, to = 120, n = 26 }\n'
@@ -308,6 +309,10 @@ def test_damage_of_unfinished_results_is_noticed(tmp_path):
     with pytest.warns(UserWarning, match=r"rows.csv is unfinished: \d+ points done so far"):
         unfinished = flapwing.read(path)
     assert len(unfinished) == len(table) and unfinished.meta["verified"] is False
+    # The warning names the line of the user's call, also if another function of the package reads the file.
+    with pytest.warns(UserWarning, match="rows.csv is unfinished") as caught:
+        analysis.describe(path, "lift_mean_mn")
+    assert [warning.filename for warning in caught] == [__file__]
     path.write_bytes(path.read_bytes()[:-1])
     with pytest.raises(ValueError, match=r"rows.csv is damaged: it lacks \d+ rows? that its journal records"):
         flapwing.read(path)

@@ -183,7 +183,7 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
     damaged = _arguments.flag("ignore_damage", ignore_damage)
     native = _flapwing.read(os.fspath(path), ignore_damage=damaged)
     for text in native["warnings"]:
-        warnings.warn(text, stacklevel=2)
+        warnings.warn(text, stacklevel=_mistakes.callers_level())
     table = Table._of(native)
     table.meta["verified"] = native["verified"]
     return table
