@@ -174,7 +174,8 @@ class Fit(Solution):
             The parameter whose error is reduced, or a prediction such as ``{"measure": "lift_mean_mn",
             "drive_frequency": 110}``.
         count : int
-            Number of readings to choose. If `candidates` has fewer than `count` points, all candidates are returned.
+            Number of readings to choose: pairs of a point and a measure. Fewer readings are returned if `repeats` is
+            False and there are fewer pairs. Points without a settled motion are left out.
         measures : list of str, optional
             The allowed measures of the new readings. By default, the measures of the data and of `sigma` are allowed.
         sigma : dict, optional

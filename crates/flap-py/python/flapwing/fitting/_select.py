@@ -185,7 +185,7 @@ def select(
         The parameters that are free from the beginning, with bounds as for `fit`.
     budget : int, optional
         Largest number of free parameters, including `start`. The default of `budget` is a fifth of the number of
-        readings.
+        fitted readings, but at least one more than the number of parameters in `start`.
     rhs_budget : float, optional
         Number of evaluations of the equations of motion after which no further step begins. `rhs_budget` does not limit
         the final fit.
