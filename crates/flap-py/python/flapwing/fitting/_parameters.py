@@ -26,8 +26,9 @@ class FreeParameter:
     ----------
     low, high : float or str, optional
         Bounds of the parameter, in SI units or as text with units. Default bounds: a third of the design's value, and
-        three times the design's value. If the design's value is zero, the default bounds are the bounds of
-        `flapwing.candidates`. If `flapwing.candidates` has no bounds for the parameter, `low` and `high` are required.
+        three times the design's value. If the design's value is zero, the default bounds are the typical bounds of a
+        term that the papers leave out, as in `flapwing.candidates`. Without typical bounds, `low` and `high` are
+        required.
         The first search begins at the design's value, or at the middle of the bounds if the design's value is outside
         of the bounds. A bound of zero is allowed if zero is an allowed value of the parameter.
     prior : (value, error), optional
