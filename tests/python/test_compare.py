@@ -152,7 +152,7 @@ def test_held_out_errors_are_compared_over_readings_that_all_fits_predict(best):
         fit = SimpleNamespace(
             _held=held,
             _sets=sets,
-            _model=SimpleNamespace(asked=SimpleNamespace(measure=["stroke_pp_deg"] * 10)),
+            _model=SimpleNamespace(outputs=SimpleNamespace(measure=["stroke_pp_deg"] * 10)),
             goodness=SimpleNamespace(p=0.5, is_structured=False),
         )
         found = criteria(sets, Space([]), np.zeros(0), answer, ~held)

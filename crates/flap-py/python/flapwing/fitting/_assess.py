@@ -31,8 +31,8 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
     difference = np.where(counted, answer.values - target.measured, np.nan)
     scaled = difference / target.sigma
     units = {measure: model.names.unit(measure) for one in sets for measure in one.measured}
-    layout = Layout(model.points, model.asked.row, _branches(sets))
-    names = np.array(model.asked.measure)
+    layout = Layout(model.points, model.outputs.row, _branches(sets))
+    names = np.array(model.outputs.measure)
     measures = {
         measure: np.flatnonzero(counted & (names == measure)) for measure in dict.fromkeys(names[counted].tolist())
     }
@@ -85,7 +85,7 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
         discrepancy,
         good,
         _outliers(sets, scaled, is_outlier),
-        between_sets(model.space, model.asked.of_set[fitted], scaled[fitted], slopes[fitted]),
+        between_sets(model.space, model.outputs.of_set[fitted], scaled[fitted], slopes[fitted]),
         _quantile(discrepancy.freedom if sigma_known(sets) else min(good.freedom, discrepancy.freedom)),
     )
 

@@ -332,7 +332,7 @@ def _equal(one: Any, other: Any) -> bool:
 def _held_out_rms(side: Side, predicted: Mask) -> dict[str, float]:
     """Return the root mean square of the prediction errors of each measure, over the readings in the mask
     `predicted`."""
-    names = np.array(side.fit._model.asked.measure)
+    names = np.array(side.fit._model.outputs.measure)
     return _solution.rms_errors(names, side.values - all_readings(side.fit._sets), predicted)
 
 

@@ -131,7 +131,7 @@ def deciding_measurements(
 ) -> DecidingMeasurements:
     """Return the operating points at which new readings would decide best between two fits."""
     fits = [side.fit for side in sides]
-    read = list(dict.fromkeys(fits[0]._model.asked.measure))
+    read = list(dict.fromkeys(fits[0]._model.outputs.measure))
     points = [fit._points("candidates", candidates) for fit in fits]
     rows: list[tuple[int, str]] = []
     values: list[list[Array]] = [[], []]

@@ -112,7 +112,7 @@ def _derived(fit: Solution, labels: dict[str, str]) -> dict[str, float]:
         return {}
     keywords: dict[str, Any] = {name: value for name, value in model.keywords.items() if name not in model.points}
     keywords |= {name: fit.estimates[label].value for name, label in labels.items()}
-    measure = [model.asked.measure[0]]
+    measure = [model.outputs.measure[0]]
     table = evaluate(model.names.grid, model.points, measures=measure, **keywords)
     for name in names:
         if np.ptp(table[name]) > 1e-9 * np.abs(table[name]).max():

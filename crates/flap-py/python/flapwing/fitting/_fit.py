@@ -298,7 +298,7 @@ def _check_count(model: Model, held: Mask) -> None:
     """Raise ValueError if there are too few readings. A parameter of a data set that is held out does not count, unless
     the parameter has a prior.
     """
-    readings, fitted = int((~held).sum()), [None, *model.asked.of_set[~held]]
+    readings, fitted = int((~held).sum()), [None, *model.outputs.of_set[~held]]
     priors = model.space.prior(np.zeros(len(model.space)))[1]
     has_prior = np.count_nonzero(priors, axis=0)
     free = [one.label for one, known in zip(model.space.coordinates, has_prior) if one.of_set in fitted or known]

@@ -33,13 +33,14 @@ _KEPT = 16
 
 
 @dataclass(frozen=True)
-class Asked:
-    """Measures at operating points, with one number for each point."""
+class Outputs:
+    """The outputs of the model: measures at operating points, with one number for each output."""
 
-    #: The data set of each measure, for parameters that differ between data sets.
+    #: The data set of each output, for parameters that differ between data sets.
     of_set: Places
-    #: The operating point of each measure, as an index into the columns of points.
+    #: The operating point of each output, as an index into the columns of points.
     row: Places
+    #: The measure of each output.
     measure: list[str]
 
 
@@ -63,8 +64,8 @@ class Part:
 
     points: dict[str, Any]
     branches: list[Branch]
-    asked: Asked
-    #: The places of the measures of `asked` among all readings.
+    outputs: Outputs
+    #: The places of `outputs` among all readings.
     places: Places
 
 
@@ -91,8 +92,8 @@ class Model:
         #: The parameters of the design and of the keywords, in SI units.
         self.nominal = {**names.nominal, **_si(names, self.keywords)}
         self.points, self.branches = _points(names.options, sets, self.nominal)
-        self.asked = _asked(sets)
-        self.part = _part(self.points, self.branches, self.asked, held)
+        self.outputs = _outputs(sets)
+        self.part = _part(self.points, self.branches, self.outputs, held)
         #: Number of points that were run, and number of evaluations of the right-hand side.
         self.ran = 0
         self.rhs_evals = 0
@@ -108,7 +109,7 @@ class Model:
         known = {key: self._known[key] for key in keys if key not in new}
         if new:
             part = self.part
-            found = self.answers(part.points, part.asked, part.branches, list(new.values()), slopes=slopes, rtol=rtol)
+            found = self.answers(part.points, part.outputs, part.branches, list(new.values()), slopes=slopes, rtol=rtol)
             known.update(zip(new, (self._whole(answer) for answer in found)))
         self._known.update(known)
         for key in list(self._known)[:-_KEPT]:
@@ -118,7 +119,7 @@ class Model:
     def answers(
         self,
         points: Mapping[str, Any],
-        asked: Asked,
+        outputs: Outputs,
         branches: Sequence[Branch],
         xs: Sequence[Array],
         *,
@@ -131,11 +132,11 @@ class Model:
             name: np.tile(values, len(xs)) if isinstance(values, np.ndarray) else list(values) * len(xs)
             for name, values in points.items()
         }
-        columns.update(self._free(asked, rows, xs))
+        columns.update(self._free(outputs, rows, xs))
         keywords = {name: value for name, value in self.keywords.items() if name not in columns}
         if rtol is not None:
             keywords.setdefault("rtol", rtol)
-        measures = list(dict.fromkeys(asked.measure))
+        measures = list(dict.fromkeys(outputs.measure))
         loose = {
             "rtol": max(_NEARBY, float(keywords.get("rtol", 0.0))),
             "settle_tol": max(_SETTLED, float(keywords.get("settle_tol", 0.0))),
@@ -145,11 +146,11 @@ class Model:
         table = self._run(keywords, measures)(
             columns, initial_state=begin, gradient=self.space.parameters if slopes else None
         )
-        answers = self._split(table, asked, rows, xs, slopes)
+        answers = self._split(table, outputs, rows, xs, slopes)
         near = [(place, column) for place, x in enumerate(xs) for column in self._near_zero(x)] if slopes else []
         if near:
             moved = [xs[place] + self._step(xs[place], column) for place, column in near]
-            there = self.answers(points, asked, branches, moved, slopes=False, rtol=rtol)
+            there = self.answers(points, outputs, branches, moved, slopes=False, rtol=rtol)
             for (place, column), x, other in zip(near, moved, there):
                 here = answers[place]
                 difference = (other.values - here.values) / (x[column] - xs[place][column])
@@ -159,11 +160,11 @@ class Model:
 
     def everything(self, x: Array) -> Answer:
         """Return all readings of the model at coordinates, including the readings that are not fitted."""
-        return self.answers(self.points, self.asked, self.branches, [x], rtol=FINE)[0]
+        return self.answers(self.points, self.outputs, self.branches, [x], rtol=FINE)[0]
 
     def _whole(self, answer: Answer) -> Answer:
         """Return results for all readings, from the results for the readings that a search computes."""
-        count, places = len(self.asked.row), self.part.places
+        count, places = len(self.outputs.row), self.part.places
         if len(places) == count:
             return answer
         values, slopes = np.full(count, np.nan), np.zeros((count, len(self.space)))
@@ -197,7 +198,7 @@ class Model:
         """Return the reason why the point of a reading is impossible at given coordinates. The reason is empty text if
         the point is possible.
         """
-        of_set, row = self.asked.of_set[reading], self.asked.row[reading]
+        of_set, row = self.outputs.of_set[reading], self.outputs.row[reading]
         free = {
             one.parameter: float(value)
             for one, value in zip(self.space.coordinates, self.space.values(x))
@@ -217,10 +218,10 @@ class Model:
 
         return rows
 
-    def _free(self, asked: Asked, rows: int, xs: Sequence[Array]) -> dict[str, Array]:
+    def _free(self, outputs: Outputs, rows: int, xs: Sequence[Array]) -> dict[str, Array]:
         """Return the columns of points with the free parameters."""
         of_row = np.zeros(rows, np.intp)
-        of_row[asked.row] = asked.of_set
+        of_row[outputs.row] = outputs.of_set
         columns = {name: np.empty((len(xs), rows)) for name in self.space.parameters}
         for place, x in enumerate(xs):
             for coordinate, value in zip(self.space.coordinates, self.space.values(x)):
@@ -228,9 +229,9 @@ class Model:
                 columns[coordinate.parameter][place, where] = value
         return {name: values.ravel() for name, values in columns.items()}
 
-    def _split(self, table: Table, asked: Asked, rows: int, xs: Sequence[Array], slopes: bool) -> list[Answer]:
-        measures = list(dict.fromkeys(asked.measure))
-        which = np.array([measures.index(name) for name in asked.measure], np.intp)
+    def _split(self, table: Table, outputs: Outputs, rows: int, xs: Sequence[Array], slopes: bool) -> list[Answer]:
+        measures = list(dict.fromkeys(outputs.measure))
+        which = np.array([measures.index(name) for name in outputs.measure], np.intp)
 
         def whole(found: Any, empty: Any) -> Any:
             """Return one row for each point. The row is empty for a point that the conditions of the design exclude."""
@@ -243,19 +244,19 @@ class Model:
         gradient = whole(table.gradient, np.nan) if slopes else None
         answers = []
         for place, x in enumerate(xs):
-            found = np.zeros((len(asked.row), len(self.space)))
-            gaps = np.zeros(len(asked.row), np.bool_)
+            found = np.zeros((len(outputs.row), len(self.space)))
+            gaps = np.zeros(len(outputs.row), np.bool_)
             if gradient is not None:
                 near = self._near_zero(x)
-                by = gradient[place, asked.row, which]
+                by = gradient[place, outputs.row, which]
                 for column, (one, factor) in enumerate(zip(self.space.coordinates, self.space.slopes(x))):
-                    mine = True if one.of_set is None else asked.of_set == one.of_set
+                    mine = True if one.of_set is None else outputs.of_set == one.of_set
                     slope = by[:, self.space.parameters.index(one.parameter)] * factor
                     found[:, column] = 0.0 if column in near else np.where(mine, slope, 0.0)
-                settled = np.isfinite(values[place, asked.row, which])
+                settled = np.isfinite(values[place, outputs.row, which])
                 gaps = ~np.isfinite(found).all(axis=1) & settled
                 found = np.nan_to_num(found, nan=0.0, posinf=0.0, neginf=0.0)
-            answers.append(Answer(values[place, asked.row, which], found, status[place, asked.row], gaps))
+            answers.append(Answer(values[place, outputs.row, which], found, status[place, outputs.row], gaps))
         return answers
 
 
@@ -294,7 +295,7 @@ def _points(
     return points, branches
 
 
-def _asked(sets: Sequence[DataSet]) -> Asked:
+def _outputs(sets: Sequence[DataSet]) -> Outputs:
     of_set, row, measure = [], [], []
     begin = 0
     for place, one in enumerate(sets):
@@ -303,22 +304,22 @@ def _asked(sets: Sequence[DataSet]) -> Asked:
             row += list(range(begin, begin + len(one)))
             measure += [name] * len(one)
         begin += len(one)
-    return Asked(np.array(of_set, np.intp), np.array(row, np.intp), measure)
+    return Outputs(np.array(of_set, np.intp), np.array(row, np.intp), measure)
 
 
-def _part(points: dict[str, Any], branches: list[Branch], asked: Asked, held: Mask | None) -> Part:
+def _part(points: dict[str, Any], branches: list[Branch], outputs: Outputs, held: Mask | None) -> Part:
     if held is None or not held.any():
-        return Part(points, branches, asked, np.arange(len(asked.row)))
+        return Part(points, branches, outputs, np.arange(len(outputs.row)))
     runs = np.zeros(_length(points), np.bool_)
-    runs[asked.row[~held]] = True
+    runs[outputs.row[~held]] = True
     for branch in branches:
         runs[branch.rows] = True
-    places = np.flatnonzero(runs[asked.row])
+    places = np.flatnonzero(runs[outputs.row])
     number = np.cumsum(runs) - 1
     chosen = np.flatnonzero(runs).tolist()
     return Part(
         {name: taken(values, chosen) for name, values in points.items()},
         [Branch(branch.parameter, branch.falls, number[branch.rows]) for branch in branches],
-        Asked(asked.of_set[places], number[asked.row[places]], [asked.measure[place] for place in places]),
+        Outputs(outputs.of_set[places], number[outputs.row[places]], [outputs.measure[place] for place in places]),
         places,
     )

@@ -14,7 +14,7 @@ from .._types import Array
 from ._branches import Branch, taken
 from ._cells import parameter_cells
 from ._data import DataSet
-from ._model import FINE, Answer, Asked, Model
+from ._model import FINE, Answer, Model, Outputs
 
 
 def cell(value: Any) -> str:
@@ -95,8 +95,8 @@ def answers_at(
         points = _with_data(model, points, place, like.parameter)
         branches = [Branch(like.parameter, like.branch == "down", np.arange(len(points[like.parameter])))]
     every = len(next(iter(points.values())))
-    asked = Asked(np.full(every, place, np.intp), np.arange(every), [measure] * every)
-    answer = model.answers(points, asked, branches, [x], rtol=FINE)[0]
+    outputs = Outputs(np.full(every, place, np.intp), np.arange(every), [measure] * every)
+    answer = model.answers(points, outputs, branches, [x], rtol=FINE)[0]
     new = slice(every - count, None)
     return Answer(answer.values[new], answer.slopes[new], answer.status[new], answer.gaps[new])
 
@@ -107,7 +107,7 @@ def _with_data(model: Model, points: Mapping[str, Any], place: int, along: str) 
     wanted = {tuple(points[name][row] for name in others) for row in range(len(points[along]))}
     own = [
         row
-        for row in np.unique(model.asked.row[model.asked.of_set == place]).tolist()
+        for row in np.unique(model.outputs.row[model.outputs.of_set == place]).tolist()
         if tuple(model.points[name][row] if name in model.points else model.nominal[name] for name in others) in wanted
     ]
     whole = {}

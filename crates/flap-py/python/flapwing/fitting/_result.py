@@ -295,7 +295,7 @@ class Fit(Solution):
         error is infinite if a prediction depends on a parameter that the data do not determine.
         """
         error = np.hypot(error_of(answer, self._covariance), _search.sigmas(self._sets, answer.values, self._guesses))
-        names = np.array(self._model.asked.measure)
+        names = np.array(self._model.outputs.measure)
         for measure in self._discrepancy:
             mine = names == measure
             error[mine] = np.hypot(error[mine], self._discrepancy_of(measure, answer.values[mine]))
@@ -304,7 +304,7 @@ class Fit(Solution):
     def _predict_held_out(self, held: Mask) -> None:
         """Compute `held_out`: predictions of the readings in the mask `held`."""
         answer = self._model.everything(self._x)
-        names, reach = np.array(self._model.asked.measure), self._quantile * self._errors_of_readings(answer)
+        names, reach = np.array(self._model.outputs.measure), self._quantile * self._errors_of_readings(answer)
         self.held_out = _solution.held_out(names, all_readings(self._sets), answer.values, held, reach)
 
     def _target(self, target: str | Mapping[str, Any], data_set: str | None) -> tuple[Array, str, str, int]:

@@ -39,7 +39,7 @@ def together(
 
     def work(place: int) -> None:
         def ask(x: Array) -> Answer:
-            inbox.put((place, "asks", x.copy()))
+            inbox.put((place, "request", x.copy()))
             reply = replies[place].get()
             if reply is None:
                 raise _Ended
@@ -56,7 +56,7 @@ def together(
     for thread in threads:
         thread.start()
     found: dict[int, _Result] = {}
-    asked: dict[int, Array] = {}
+    waiting: dict[int, Array] = {}
     try:
         while len(found) < len(searches):
             place, kind, content = inbox.get()
@@ -65,11 +65,11 @@ def together(
             if kind == "found":
                 found[place] = content
             else:
-                asked[place] = content
-            if asked and len(asked) + len(found) == len(searches):
-                places = sorted(asked)
-                answers = answer([asked[place] for place in places])
-                asked = {}
+                waiting[place] = content
+            if waiting and len(waiting) + len(found) == len(searches):
+                places = sorted(waiting)
+                answers = answer([waiting[place] for place in places])
+                waiting = {}
                 for place, one in zip(places, answers):
                     replies[place].put(one)
     finally:
