@@ -28,54 +28,6 @@ _UNKNOWN_WORKERS = 16
 _MOST_REASONS = 5
 
 
-def _number_of_workers(client: Any) -> int:
-    """Return the number of tasks that run at the same time."""
-    if hasattr(client, "nthreads"):
-        return sum(client.nthreads().values()) or _UNKNOWN_WORKERS
-    # `num_workers` is mpi4py's; process pools and thread pools have only the private attribute.
-    number = getattr(client, "num_workers", None) or getattr(client, "_max_workers", None)
-    return number if isinstance(number, int) and number > 0 else _UNKNOWN_WORKERS
-
-
-def _results(
-    client: Executor, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]
-) -> Generator[Any, None, None]:
-    """Yield the results of a function for several tasks, in the order of the tasks. A task is a set of arguments of the
-    function.
-
-    The number of tasks that are submitted at the same time is limited. If the iterator is closed or an
-    exception is raised, tasks that have not started are cancelled.
-    """
-    # A Dask client makes an executor, with tasks that are not cached.
-    executor: Any = client.get_executor(pure=False) if hasattr(client, "get_executor") else client
-    submitted: deque[Any] = deque()
-    remaining = iter(tasks)
-    try:
-        while True:
-            # The workers of a cluster can start after the first tasks.
-            ahead = _TASKS_PER_WORKER * _number_of_workers(client)
-            while len(submitted) < ahead and (task := next(remaining, None)) is not None:
-                submitted.append(executor.submit(function, *task))
-            if not submitted:
-                return
-            result = submitted[0].result()
-            submitted.popleft()
-            yield result
-    except BrokenExecutor as error:
-        raise RuntimeError(
-            f"a worker of `client` died: {error}\n"
-            "check that its workers can import flapwing and have enough memory; in a script, begin with "
-            'if __name__ == "__main__":\n'
-            "then call again with a new executor; a sweep with `out` continues"
-        ) from error
-    except Exception as error:
-        error.add_note("raised by a task of `client`; a sweep with `out` continues if you call it again")
-        raise
-    finally:
-        for future in submitted:
-            future.cancel()
-
-
 def call(client: Executor | None, function: Callable[..., Any], design: Any, *arguments: Any, **keywords: Any) -> Any:
     """Return the result of a native function for a design. If a client is given, a worker calls the function."""
     if client is None:
@@ -135,11 +87,6 @@ def _check_identity(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
             )
 
 
-def _part_task(name: str, text: str, begin: int, end: int, threads: SupportsIndex | None) -> bytes:
-    """Run the task of a worker: return the rows of a range of points of a grid, as bytes."""
-    return _flapwing.part(Grid._named(name, text), begin, end, threads=threads)
-
-
 class Chunks:
     """The points of a grid in ranges that workers compute. The rows are returned in the order of the points."""
 
@@ -170,6 +117,11 @@ class Chunks:
             tasks = ((*self._grid, begin, min(self._points, begin + self._size), self._threads) for begin in begins)
             self._results = _results(self._client, _part_task, tasks)
         return next(self._results, None)
+
+
+def _part_task(name: str, text: str, begin: int, end: int, threads: SupportsIndex | None) -> bytes:
+    """Run the task of a worker: return the rows of a range of points of a grid, as bytes."""
+    return _flapwing.part(Grid._named(name, text), begin, end, threads=threads)
 
 
 def _task_size(client: Executor, points: int, threads: SupportsIndex, points_per_task: SupportsIndex | None) -> int:
@@ -329,3 +281,51 @@ def responses(
                 show(done, designs)
     verdicts = [verdict for part in parts for verdict in part["meta"]["verdicts"]]
     return {"columns": _columns(parts), "meta": {**empty["meta"], "verdicts": verdicts}}
+
+
+def _results(
+    client: Executor, function: Callable[..., Any], tasks: Iterable[tuple[Any, ...]]
+) -> Generator[Any, None, None]:
+    """Yield the results of a function for several tasks, in the order of the tasks. A task is a set of arguments of the
+    function.
+
+    The number of tasks that are submitted at the same time is limited. If the iterator is closed or an
+    exception is raised, tasks that have not started are cancelled.
+    """
+    # A Dask client makes an executor, with tasks that are not cached.
+    executor: Any = client.get_executor(pure=False) if hasattr(client, "get_executor") else client
+    submitted: deque[Any] = deque()
+    remaining = iter(tasks)
+    try:
+        while True:
+            # The workers of a cluster can start after the first tasks.
+            ahead = _TASKS_PER_WORKER * _number_of_workers(client)
+            while len(submitted) < ahead and (task := next(remaining, None)) is not None:
+                submitted.append(executor.submit(function, *task))
+            if not submitted:
+                return
+            result = submitted[0].result()
+            submitted.popleft()
+            yield result
+    except BrokenExecutor as error:
+        raise RuntimeError(
+            f"a worker of `client` died: {error}\n"
+            "check that its workers can import flapwing and have enough memory; in a script, begin with "
+            'if __name__ == "__main__":\n'
+            "then call again with a new executor; a sweep with `out` continues"
+        ) from error
+    except Exception as error:
+        error.add_note("raised by a task of `client`; a sweep with `out` continues if you call it again")
+        raise
+    finally:
+        for future in submitted:
+            future.cancel()
+
+
+def _number_of_workers(client: Any) -> int:
+    """Return the number of tasks that run at the same time."""
+    if hasattr(client, "nthreads"):
+        return sum(client.nthreads().values()) or _UNKNOWN_WORKERS
+    # `num_workers` is mpi4py's; process pools and thread pools have only the private attribute.
+    number = getattr(client, "num_workers", None) or getattr(client, "_max_workers", None)
+    return number if isinstance(number, int) and number > 0 else _UNKNOWN_WORKERS
