@@ -206,6 +206,16 @@ def test_mistakes_are_told(arguments, error, says):
         flapwing.Vehicle(*arguments)
 
 
+def test_flags_of_a_vehicle_are_true_or_false():
+    wings = [flapwing.Wing("left")]
+    assert flapwing.Vehicle("jafferis2016", wings, damping=np.True_)["vehicle"]["damping"] is True
+    with pytest.raises(TypeError, match="`damping` is str\nit must be True or False"):
+        flapwing.Vehicle("jafferis2016", wings, damping="yes")
+    for name in ("trim", "positions"):
+        with pytest.raises(TypeError, match=f"`{name}` is str\nit must be True or False"):
+            flapwing.Vehicle("jafferis2016", wings).linear(**{name: "yes"})
+
+
 @pytest.mark.parametrize(
     ("options", "error", "says"),
     [

@@ -184,8 +184,8 @@ class Vehicle(_Entries):
             vehicle["total_mass"] = total_mass
         if trim is not None:
             vehicle["trim"] = trim
-        if damping:
-            vehicle["damping"] = damping
+        if _arguments.flag("damping", damping):
+            vehicle["damping"] = True
         vehicle["wings"] = [_wing(place, wing) for place, wing in enumerate(_listed(wings))]
         self._entries["vehicle"] = vehicle
         # This call reports mistakes with their place.
@@ -241,8 +241,14 @@ class Vehicle(_Entries):
         >>> model.modes[0]
         'pitch and forward velocity (longitudinal oscillation)'
         """
-        names = _arguments.name_list("inputs", inputs, "amplitude")
-        found = _flapwing.linear(self, dict(params), point=point, inputs=names, trim_to_hover=trim, positions=positions)
+        found = _flapwing.linear(
+            self,
+            dict(params),
+            point=point,
+            inputs=_arguments.name_list("inputs", inputs, "amplitude"),
+            trim_to_hover=_arguments.flag("trim", trim),
+            positions=_arguments.flag("positions", positions),
+        )
         eigenvalues = found.pop("eigenvalues_real") + 1j * found.pop("eigenvalues_imag")
         return LinearModel(eigenvalues=eigenvalues, **found)
 
