@@ -133,8 +133,9 @@ def test_rank_correlations_are_those_of_ranks(sample):
         pearson = np.corrcoef(ranked(sample[each.parameter]), ranked(sample["power_mean_mw"]))[0, 1]
         assert each.correlation == pytest.approx(pearson, rel=1e-12)
         assert (each.measure, each.designs) == ("power_mean_mw", 40)
-    (one,) = analysis.rank_correlations(sample, parameters=["hinge_stiffness"])
-    assert one.parameter == "hinge_stiffness"
+    for parameters in (["hinge_stiffness"], "hinge_stiffness"):
+        (one,) = analysis.rank_correlations(sample, parameters=parameters)
+        assert one.parameter == "hinge_stiffness"
 
 
 def test_a_tornado_of_a_sample(sample, tmp_path):

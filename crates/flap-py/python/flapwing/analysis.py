@@ -171,7 +171,7 @@ def _ranges(
     elif isinstance(parameters, Mapping):
         chosen = dict(parameters)
     else:
-        chosen = dict.fromkeys([parameters] if isinstance(parameters, str) else parameters, change)
+        chosen = dict.fromkeys(_names(parameters), change)
     for name, spread in chosen.items():
         if name not in known:
             raise unknown("parameter", name, known)
@@ -216,7 +216,7 @@ class RankCorrelation:
 def rank_correlations(
     table: Any,
     measure: str | None = None,
-    parameters: Iterable[str] | None = None,
+    parameters: str | Iterable[str] | None = None,
     *,
     where: Mapping[str, Any] | None = None,
     **slices: Any,
@@ -234,7 +234,7 @@ def rank_correlations(
     measure : str, optional
         A column of numbers. The default of `measure` is the mean lift, or a different measure if the table has no mean
         lift.
-    parameters : iterable of str, optional
+    parameters : str or iterable of str, optional
         The parameters to correlate, or any columns of numbers. The default of `parameters` is all parameters of the
         table.
     where, **slices
@@ -269,12 +269,17 @@ def rank_correlations(
     designs = int(np.isfinite(values).sum())
     if not designs:
         raise ValueError(f"no row has a number for `{measure}`")
-    names = _parameters(data) if parameters is None else list(parameters)
+    names = _parameters(data) if parameters is None else _names(parameters)
     columns = [np.ascontiguousarray(data.numbers(name)) for name in names]
     found = correlations(columns, np.ascontiguousarray(values))
     if not found:
         raise ValueError("no parameter has several values in these rows: there is nothing to compare")
     return [RankCorrelation(names[place], size, measure, designs) for place, size in found]
+
+
+def _names(given: str | Iterable[str]) -> list[str]:
+    """Return one name, or several names, as a list."""
+    return [given] if isinstance(given, str) else list(given)
 
 
 def _parameters(data: Data) -> list[str]:
@@ -401,7 +406,7 @@ def describe(
     """
     data = Data.of(table).slice(where, slices).one_sample()
     chosen = percentages(percentiles)
-    names = data.measures() if measures is None else [measures] if isinstance(measures, str) else list(measures)
+    names = data.measures() if measures is None else _names(measures)
     found = {}
     for name in names:
         values = np.where(data.measured(), data.numbers(name), np.nan)

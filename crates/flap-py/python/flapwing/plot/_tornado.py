@@ -65,8 +65,7 @@ def tornado(
         sensitivities is empty, or the measure is zero for the design.
     """
     if _is_table(design):
-        names = None if parameters is None else list(parameters)
-        return _correlations(rank_correlations(design, measure, names, **fixed), top, ax)
+        return _correlations(rank_correlations(design, measure, parameters, **fixed), top, ax)
     if isinstance(design, str):
         if measure is None:
             raise TypeError("`measure` is required: a measure of the model, such as lift_mean_mn")
