@@ -116,6 +116,9 @@ def test_tornado_mistakes():
     assert "more than zero" in message(
         ValueError, plot.tornado, "ozaki2018-large", "lift_mean_mn", ["wing_length"], change=0
     )
+    told = message(TypeError, plot.tornado, "ozaki2018-large", "lift_mean_mn", {"drive_voltage_pp": "5 V"})
+    assert told.startswith("`parameters['drive_voltage_pp']` is str, which raised ValueError: could not convert")
+    assert told.endswith("\nit must be a relative change, or a pair of values in SI units")
     assert "the two values" in message(ValueError, plot.tornado, "jafferis2016", "lift_mean_mn", ["actuator_mass"])
     assert "no sensitivities" in message(ValueError, plot.tornado, [])
     assert "`measure`" in message(TypeError, plot.tornado, "ozaki2018-large")

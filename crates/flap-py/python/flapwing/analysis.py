@@ -180,12 +180,13 @@ def _ranges(
             if isinstance(value, float):
                 raise ValueError(f"`{name}` is not set in this preset: set it, as in `{name}=…`")
             raise ValueError(f"`{name}` is {value!r}: only numbers can be changed slightly")
-        if isinstance(spread, (tuple, list)):
-            if len(spread) != 2:
-                raise ValueError(f"`{name}` requires two values to run, not {len(spread)}")
-            below, above = sorted(map(float, spread))
-            chosen[name] = (below, above)
-        elif not 0 < float(spread) < math.inf:
+        if isinstance(spread, (tuple, list)) and len(spread) != 2:
+            raise ValueError(f"`{name}` requires two values to run, not {len(spread)}")
+        with reading(f"parameters[{name!r}]", spread, "it must be a relative change, or a pair of values in SI units"):
+            values = sorted(map(float, spread)) if isinstance(spread, (tuple, list)) else [float(spread)]
+        if len(values) == 2:
+            chosen[name] = (values[0], values[1])
+        elif not 0 < values[0] < math.inf:
             raise ValueError(f"the change of `{name}` must be more than zero, not {spread}")
     return chosen
 
