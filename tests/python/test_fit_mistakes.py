@@ -232,6 +232,7 @@ def test_free_parameters_that_are_refused(free, error, says):
             "`sigma` is 0.0 for stroke_pp_deg\nstandard errors must be finite and more than zero",
         ),
         ({"sigma": np.nan}, ValueError, "`sigma` is nan for stroke_pp_deg\nstandard errors must be finite"),
+        ({"sigma": True}, TypeError, "`sigma` is bool\nit must be a number in deg, or text such as"),
         ({"sigma": [1, 1, 1, 1]}, TypeError, "for errors of single readings, add a column stroke_pp_deg_sigma"),
         (
             {"sigma": {"stroke": 1.0}},

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from .. import _flapwing
+from .._mistakes import refused
 from .._types import Array
 
 
@@ -44,6 +45,8 @@ def parse_noise(name: str, given: Any, measure: str, unit: str) -> Noise:
         f'it must be a number in {unit or "the unit of the measure"}, or text such as "3 %"; '
         f"for errors of single readings, add a column {measure}_sigma"
     )
+    if isinstance(given, (bool, np.bool_)):
+        raise refused(name, given, wanted)
     relative = isinstance(given, str) and given.strip().endswith("%")
     if isinstance(given, str) and not relative:
         size = _flapwing.quantity(name, given, unit)
@@ -55,7 +58,7 @@ def parse_noise(name: str, given: Any, measure: str, unit: str) -> Noise:
         except OverflowError:
             raise ValueError(f"`{name}` is too large for a 64-bit float\n{wanted}") from None
         except TypeError:
-            raise TypeError(f"`{name}` is {type(given).__name__}\n{wanted}") from None
+            raise refused(name, given, wanted) from None
     if not (size > 0 and np.isfinite(size)):
         raise ValueError(f"`{name}` is {given!r} for {measure}\nstandard errors must be finite and more than zero")
     return Noise("relative" if relative else "absolute", size)
