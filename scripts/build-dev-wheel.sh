@@ -21,6 +21,6 @@ fi
 # Selected with the package, the command has the dependencies' features of the wheel, so crates are not compiled twice.
 cargo build --quiet --profile "$profile" --locked -p flap-cli -p flap-py --bin flap
 rm -f -- "$work"/*.whl
-"$work/env/bin/maturin" --quiet build --profile "$profile" --locked --compatibility off \
+"$work/env/bin/maturin" build --quiet --profile "$profile" --locked --compatibility off \
     --manifest-path crates/flap-py/Cargo.toml --interpreter "$work/env/bin/python" --out "$work" >&2
 echo "$work"/*.whl
