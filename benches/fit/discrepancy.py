@@ -1,7 +1,7 @@
 """Coverage of the bands of `flapwing.fit` for new readings, with a correct model and with wrong models.
 
 Readings of stroke and pitch at four voltages are simulated with the fitted model, and with terms that the fitted model
-leaves out. Readings at one voltage are held out and predicted. The 95 % bands should contain 90 to 99 % of the held-out
+leaves out. Readings at one voltage are held out and predicted. The 95 % bands should contain 90 to 98 % of the held-out
 readings, for the correct model and for wrong models.
 
     python benches/fit/discrepancy.py --seeds 3

@@ -86,7 +86,7 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
         good,
         _outliers(sets, scaled, is_outlier),
         between_sets(model.space, model.outputs.of_set[fitted], scaled[fitted], slopes[fitted]),
-        _quantile(discrepancy.freedom if sigma_known(sets) else min(good.freedom, discrepancy.freedom)),
+        _quantile(sigma_known(sets), min(good.freedom, discrepancy.freedom)),
     )
 
 
@@ -123,11 +123,11 @@ def _branches(sets: list[DataSet]) -> Places:
     return np.concatenate([np.full(len(one) * len(one.measured), known.index(one.branch), np.intp) for one in sets])
 
 
-def _quantile(freedom: float) -> float:
-    """Return the quantile for 95 % intervals. For infinite freedom, this is the quantile of the normal distribution."""
-    from scipy.stats import t
+def _quantile(sigma_known: bool, freedom: float) -> float:
+    """Return the quantile for 95 % intervals."""
+    from scipy.stats import norm, t
 
-    return float(t.ppf(0.975, max(1.0, freedom)))
+    return float(norm.ppf(0.975) if sigma_known else t.ppf(0.975, max(1, freedom)))
 
 
 def sigma_known(sets: list[DataSet]) -> bool:
