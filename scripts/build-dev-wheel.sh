@@ -11,7 +11,9 @@ cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 profile=${1:-dev}
 work=${CARGO_TARGET_DIR:-$PWD/target}/wheel
 maturin=$(grep '^maturin==' scripts/release-requirements.txt)
-if ! [[ $maturin == "$(cat -- "$work/made-from" 2>/dev/null)" ]]; then
+# The interpreter of an environment can be removed, or older than the wheel allows.
+if [[ $maturin != "$(cat -- "$work/made-from" 2>/dev/null)" ]] ||
+    ! "$work/env/bin/python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
     rm -rf -- "$work"
     python3 -m venv "$work/env"
     "$work/env/bin/python" -m pip install --quiet --disable-pip-version-check "$maturin"

@@ -2,6 +2,7 @@
 
 import csv
 import pickle
+from dataclasses import replace
 from types import SimpleNamespace
 
 import flapwing
@@ -272,6 +273,8 @@ def test_readings_without_a_settled_motion_are_told():
     result = flapwing.fit(PRESET, data, free, sigma="3 %", starts=1, profile=False, hold_out=held)
     assert (result.held_out.count, result.held_out.unsettled) == (16, 1) and result.held_out.covered <= 15 / 16
     assert "no settled motion at 1 of them, which the rms error leaves out" in str(result)
+    result.held_out = replace(result.held_out, covered=np.nan)
+    assert "none has a 95 % band" in str(result)
 
 
 def test_readings_can_be_pickled():

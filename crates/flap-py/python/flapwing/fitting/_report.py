@@ -136,9 +136,10 @@ def _quality(fit: Solution) -> list[str]:
     if fit.held_out is not None:
         rms = ", ".join(f"{value:.3g} ({name})" for name, value in fit.held_out.rms.items()) or "unknown"
         lost = fit.held_out.unsettled
+        covered = fit.held_out.covered
         lines.append(
             f"{fit.held_out.count} readings held out: rms error of prediction {rms}; "
-            f"{100 * fit.held_out.covered:.0f} % in their 95 % bands"
+            + ("none has a 95 % band" if np.isnan(covered) else f"{100 * covered:.0f} % in their 95 % bands")
             + (f"; no settled motion at {lost} of them, which the rms error leaves out" if lost else "")
         )
     return lines
