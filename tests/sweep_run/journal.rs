@@ -37,7 +37,7 @@ pub(crate) fn run_to(session: &mut Session, plan: &Plan, before: Summary, stop_a
     let mut sink = Crash { session, stop_at };
     match resume(plan, &often().run, before, &mut sink, &AtomicBool::new(false), &mut |_| {}) {
         Ok(summary) => {
-            session.complete(&summary).unwrap();
+            session.end(&summary).unwrap();
             Some(summary)
         }
         Err(RunError::Sink(_)) => None,

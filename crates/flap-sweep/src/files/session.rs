@@ -233,7 +233,7 @@ impl Session {
     /// # Errors
     /// - [`io::ErrorKind::Other`] if a file was removed or replaced.
     /// - The error of the operating system if a file cannot be written.
-    pub fn complete(&mut self, summary: &Summary) -> io::Result<()> {
+    pub fn end(&mut self, summary: &Summary) -> io::Result<()> {
         if !summary.is_interrupted() || self.rows.may_be_cut() {
             self.write_checkpoint(summary)?;
         }

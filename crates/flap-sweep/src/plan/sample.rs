@@ -1,6 +1,6 @@
 //! Samples of a design space: points that are spread over the design space at random or more evenly.
 //!
-//! A [`SamplePoints`] spreads points over the unit cube, and a [`Distribution`] maps each coordinate to a parameter. Any
+//! [`SamplePoints`] are points in the unit cube, and a [`Distribution`] maps each coordinate to a parameter. Any
 //! point is computed in constant time and depends only on the seed and on the index of the point.
 
 use rand::rngs::ChaCha8Rng;

@@ -18,9 +18,9 @@ pub struct Slopes {
 
 /// Returns the derivatives of the measure number `measure` at the periodic `row` of a point.
 ///
-/// The plan's source of rows at hover, or `simulator`, the plan's model, computed the row in `run`. Derived parameters
-/// are updated, except parameters in `fixed`, which have their own values. At hover, the inputs change with the design,
-/// so that the vehicle keeps hovering.
+/// `run` computed the row with the plan's source of rows for hover or a damping matrix. A plan without such a source
+/// uses its model, `simulator`. Derived parameters are updated, except parameters in `fixed`, which have their own
+/// values. At hover, the inputs change with the design, so that the vehicle keeps hovering.
 ///
 /// # Errors
 /// [`Unfinished`], as in

@@ -227,11 +227,11 @@ impl Writing<'_> {
                 return Ok(Done { summary, rows_before, seconds, place: None });
             }
         };
-        let closed = ended.and_then(|summary| {
-            session.complete(&summary)?;
+        let finished = ended.and_then(|summary| {
+            session.end(&summary)?;
             Ok(summary)
         });
-        let summary = match closed {
+        let summary = match finished {
             Ok(summary) => summary,
             Err(error) => {
                 sidecar.fail(error.to_string(), time::now(), session.seconds());
