@@ -11,9 +11,10 @@ cd -- "$(dirname -- "${BASH_SOURCE[0]}")/.."
 profile=${1:-dev}
 work=${CARGO_TARGET_DIR:-$PWD/target}/wheel
 maturin=$(grep '^maturin==' scripts/release-requirements.txt)
+floor=$(sed -n 's/^requires-python = ">=\(.*\)"$/\1/p' crates/flap-py/pyproject.toml)
 # The interpreter of an environment can be removed, or older than the wheel allows.
 if [[ $maturin != "$(cat -- "$work/made-from" 2>/dev/null)" ]] ||
-    ! "$work/env/bin/python" -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then
+    ! "$work/env/bin/python" -c "import sys; sys.exit(sys.version_info < (${floor/./, }))" 2>/dev/null; then
     rm -rf -- "$work"
     python3 -m venv "$work/env"
     "$work/env/bin/python" -m pip install --quiet --disable-pip-version-check "$maturin"
