@@ -1,6 +1,6 @@
 //! Motion of the body through still air, and the motion of a wing's sections that results from it.
 //!
-//! The body moves with constant velocity and rates in its own axes while the wings settle. `docs/models/vehicle.md`
+//! The body moves with constant velocity and rates in its own axes while the wings settle. `docs/models/body-motion.md`
 //! derives the equations.
 
 use crate::num::Real;
