@@ -2,18 +2,21 @@
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
+use flap_core::body::BodyResponse;
+use flap_core::drive::{Repeat, Samples};
 use flap_core::num::{Backend, Real as _};
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::quadrature::gauss_legendre;
 use flap_core::simulate::{
-    Change, Gradients, NoSlope, PointRun, Row, Rows, Simulator, SolverSettings, Status, Trajectory,
-    TrajectoryRequest, by_name, preset,
+    Change, ChirpRequest, Gradients, ImposedMotion, NoSlope, Point, PointRun, Row, Rows, Simulator,
+    SolverSettings, Status, Trajectory, TrajectoryRequest, Unfinished, by_name, never, preset, run_list,
 };
 use flap_core::vehicle::{FORCES, Mount, TORQUES, Vehicle};
 
 use nalgebra::{Matrix6, Vector3};
 
-use crate::data::{Record, table};
+use crate::by_name::design;
+use crate::data::{Record, assert_close, table};
 use crate::rows::worse;
 
 const MOTION: [&str; 6] = [
@@ -472,4 +475,69 @@ fn angles_are_those_of_the_library() {
         }
     }
     assert_eq!(0.0_f64.angle_over(0.0), 0.0);
+}
+
+#[test]
+fn frozen_single_wings_are_refused() {
+    let frozen = f64::from(BodyResponse::Frozen as u8);
+    let (model, values) = design("jafferis2016", &[("body_velocity_up", 0.5), ("body_response", frozen)]);
+    let solver = SolverSettings::DEFAULT;
+    let run = PointRun::new(Backend::best(), &solver, &values);
+    let row = model.run_point(&run, None);
+    assert_eq!(row.status, Status::Invalid);
+    assert!(row.reason.as_ref().is_some_and(|reason| reason.contains("needs a vehicle")), "{:?}", row.reason);
+    let points = vec![Point::at_rest(0, values.clone())];
+    let in_lanes = run_list(model, Backend::best(), &solver, points, &never).unwrap();
+    assert_eq!(in_lanes[0].reason, row.reason);
+    let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 20, settled: false };
+    let motion = model.motions().unwrap().trajectory(&run, &request);
+    assert!(matches!(motion, Err(Unfinished::Invalid(_))), "{motion:?}");
+    let request = ChirpRequest { from: 100.0, to: 110.0, rate: 1e3, samples_per_cycle: 0 };
+    let chirp = model.experiments().unwrap().chirp(&run, &request);
+    assert!(matches!(chirp, Err(Unfinished::Invalid(_))), "{:?}", chirp.err());
+    // The rows of a vehicle's wing contain the loads.
+    let solver = SolverSettings { loads: true, ..solver };
+    let row = model.run_point(&PointRun::new(Backend::best(), &solver, &values), None);
+    assert_eq!(row.status, Status::Periodic);
+}
+
+/// A body at rest has no motion to freeze, but a changed point has one.
+#[test]
+fn a_frozen_wing_at_rest_has_no_derivatives_by_the_motion_of_the_body() {
+    let frozen = f64::from(BodyResponse::Frozen as u8);
+    let (model, values) = design("jafferis2016", &[("body_response", frozen)]);
+    let solver = SolverSettings::DEFAULT;
+    let run = PointRun::new(Backend::best(), &solver, &values);
+    let row = model.run_point(&run, None);
+    assert_eq!(row.status, Status::Periodic);
+    let moved = |name: &str, by: f64| {
+        let mut values = values.clone();
+        values[Parameter::index(model.parameters(), name).unwrap()] += by;
+        values
+    };
+    let change =
+        |name: &str, size: f64| Change { ahead: moved(name, size), behind: moved(name, -size), size };
+    let changes = [change("body_velocity_up", 1e-8), change("drive_voltage_pp", 1e-6)];
+    let found = model.gradients().unwrap().gradient(&run, &row.state, &changes).unwrap();
+    assert!(found.slopes[0].iter().all(|slope| slope.is_err()), "{:?}", found.slopes[0]);
+    assert!(found.slopes[0].contains(&Err(NoSlope::Edge)), "{:?}", found.slopes[0]);
+    assert!(found.slopes[1].iter().any(|slope| slope.is_ok()), "{:?}", found.slopes[1]);
+}
+
+/// A wing that stands still in the wind has the lift ½ρA V² b_L sin 2ψ and the drag ½ρA V² (b₁ + b₂ cos 2ψ).
+#[test]
+fn a_given_motion_in_the_wind_has_its_forces_with_both_responses() {
+    let times: Vec<f64> = (0..=8).map(|i| 1e-3 * f64::from(i)).collect();
+    let constant = |angle: f64| Samples::new(&times, &[angle; 9], Repeat::Once).unwrap();
+    let motion = ImposedMotion { stroke: constant(0.0), pitch: constant(0.5), samples: 4 };
+    for response in [BodyResponse::Passive, BodyResponse::Frozen] {
+        let changes = [("body_velocity_forward", 3.0), ("body_response", f64::from(response as u8))];
+        let (model, values) = design("jafferis2016", &changes);
+        let forces = model.experiments().unwrap().imposed(&values, &motion).unwrap();
+        let at = |name: &str| forces.columns.iter().position(|column| column == name).unwrap();
+        for row in &forces.rows {
+            assert_close(row[at("lift_mn")], 0.446_496_958_309_645, 1e-9, "lift");
+            assert_close(row[at("drag_mn")], 0.975_446_526_185_560, 1e-9, "drag");
+        }
+    }
 }

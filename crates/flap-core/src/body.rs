@@ -6,6 +6,10 @@
 use crate::num::Real;
 use crate::parameter::Kind::{Choice, Number};
 use crate::parameter::Range::Any;
+use crate::parameter::{Invalid, Parameter};
+
+/// Name of the parameter with the response of the wings.
+const RESPONSE: &str = "body_response";
 
 crate::choice! {
     /// Response of the wings to the motion of the body.
@@ -36,6 +40,7 @@ crate::parameters! {
         body_rate_yaw: f64 = ("rad/s", "r", Number(Any), default: 0.0),
         /// Response of the wings to the motion of the body. With "passive", stroke and pitch respond to the motion of
         /// the body. With "frozen", the wings move as if the body were at rest, and only the loads on the body change.
+        /// The option "frozen" requires a vehicle if the body moves.
         body_response: BodyResponse = ("", "", Choice(BodyResponse::NAMES)),
     }
 }
@@ -80,6 +85,33 @@ impl BodyParameters {
             velocity: [self.body_velocity_forward, self.body_velocity_left, self.body_velocity_up],
             rate: [self.body_rate_roll, self.body_rate_pitch, self.body_rate_yaw],
         }
+    }
+
+    /// Checks that the `values` of a single wing do not combine a motion of the body with the response "frozen".
+    ///
+    /// With "frozen", only the load on a vehicle contains the motion of the body.
+    ///
+    /// # Errors
+    /// An error if the body moves and the response is "frozen".
+    pub(crate) fn check_single(parameters: &[Parameter<'_>], values: &[f64]) -> Result<(), Invalid> {
+        let value = |name: &str| Parameter::index(parameters, name).map_or(0.0, |index| values[index]);
+        let is_frozen = value(RESPONSE) == f64::from(BodyResponse::Frozen as u8);
+        if is_frozen && BodyParameters::MOTION.into_iter().any(|name| value(name) != 0.0) {
+            return Err(Invalid::new(
+                "body_response = \"frozen\" needs a vehicle, because the motion of the body then changes only the loads \
+                 on the vehicle: add [vehicle], or set body_response to \"passive\"",
+            ));
+        }
+        Ok(())
+    }
+
+    /// Returns the `values` with the response "passive", with which lift and drag contain the motion of the body.
+    pub(crate) fn passive(parameters: &[Parameter<'_>], values: &[f64]) -> Vec<f64> {
+        let mut values = values.to_vec();
+        if let Some(index) = Parameter::index(parameters, RESPONSE) {
+            values[index] = f64::from(BodyResponse::Passive as u8);
+        }
+        values
     }
 }
 

@@ -13,6 +13,8 @@ use super::runner::Runner;
 use super::sampler::{Sampler, columns as trajectory_columns, sampled, shown};
 use super::simulator::{Experiments, Simulator};
 use super::single::{PointRun, on_scalars};
+use super::start::start_at;
+use crate::body::BodyParameters;
 use crate::drive::Samples;
 use crate::measure::cycle::{SignalObserver, Sums, finish};
 use crate::model::{ExperimentModel, Measure, Model, Signal, SignalSet};
@@ -39,6 +41,8 @@ impl<M: ExperimentModel<N>, const N: usize> Experiments for Runner<M, N> {
         if (duration - other).abs() > 1e-9 * duration {
             return Err(RequestError::Durations { stroke: duration, pitch: other }.into());
         }
+        // Stroke and pitch are given, so the response of the wings to the motion of the body has no effect.
+        let values = &BodyParameters::passive(M::DESCRIPTION.parameters, values);
         let model = self.model.variant(values);
         let constants = model.start(values)?.constants;
         let rows = (0..=*samples).map(|i| {
@@ -79,7 +83,7 @@ fn chirp<M: ExperimentModel<N>, R: Scalar, const N: usize>(
         return Err(RequestError::Chirp { from, to, rate }.into());
     }
     let model = model.variant(values);
-    let start = model.start(values)?;
+    let start = start_at(&model, solver, values, None)?;
     let mut sampler = Sampler::new(samples_per_cycle);
     let mut rows = Vec::new();
     let (mut frequency, mut time, mut y) = (from, 0.0, start.y);
@@ -155,7 +159,7 @@ fn free_response<M: ExperimentModel<N>, R: Scalar, const N: usize>(
     let ImpulseRequest { stroke_rate, duration, intervals } = *request;
     refuse_nonsense(request)?;
     let model = model.variant(values);
-    let Start { constants, mut scale, .. } = model.start(values)?;
+    let Start { constants, mut scale, .. } = start_at(&model, solver, values, None)?;
     let period = M::modes(&constants).first().map_or(f64::NAN, |mode| 1.0 / mode.frequency);
     let (model, constants, y) = model.released(&constants, stroke_rate);
 

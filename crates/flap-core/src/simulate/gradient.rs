@@ -159,12 +159,12 @@ pub(super) fn gradient<M: Model<N>, R: Scalar, const N: usize>(
     let changed = changes.iter().flat_map(|change| [&change.ahead, &change.behind]);
     let model =
         &changed.fold(model.variant(values), |model, values| model.with_terms_of(&model.variant(values)));
-    let mut start = start_at(model, values, Some(state))?;
+    let mut start = start_at(model, solver, values, Some(state))?;
     start.tolerance_factor = tolerance_factor(solver.rtol);
     let mut tolerances = solver.tolerances();
     tolerances.atol *= share_of_tolerance(&start.y, &start.scale);
     let (recording, outcome) = record::<M, R, N>(model, &tolerances, &start, interrupted);
-    let sides = changes.iter().map(|change| sides(model, change)).collect();
+    let sides = changes.iter().map(|change| sides(model, solver, change)).collect();
     let kernel =
         GradientKernel { model, solver, values, start: &start, recording: &recording, changes, sides };
     let mut gradient = if outcome.ending != Ending::Stopped {
@@ -190,11 +190,15 @@ type Side<C> = (C, f64);
 type Sides<C> = Option<[Side<C>; 2]>;
 
 /// Returns the points on both sides of a point.
-fn sides<M: Model<N>, const N: usize>(model: &M, change: &Change) -> Sides<M::Constants<f64>> {
+fn sides<M: Model<N>, const N: usize>(
+    model: &M,
+    solver: &SolverSettings,
+    change: &Change,
+) -> Sides<M::Constants<f64>> {
     let side = |values: &[f64]| {
         let has_equal_choices = model.variant(values).with_terms_of(model) == *model;
         let possible = in_range(M::DESCRIPTION.parameters, values) && has_equal_choices;
-        let start = model.start(values).ok().filter(|_| possible)?;
+        let start = start_at(model, solver, values, None).ok().filter(|_| possible)?;
         Some((start.constants, start.span))
     };
     Some([side(&change.ahead)?, side(&change.behind)?])

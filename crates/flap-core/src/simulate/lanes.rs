@@ -162,7 +162,7 @@ impl<'a, M: Model<N>, const N: usize> Source<'a, SearchResult<N>, M, N> for Poin
     fn next(&mut self, idle: bool) -> Option<Run<'a, SearchResult<N>, M, N>> {
         loop {
             let Point { index, values, begin } = self.next_point(idle)?;
-            match start_at(self.model, &values, begin.as_deref()) {
+            match start_at(self.model, self.solver, &values, begin.as_deref()) {
                 Ok(start) => {
                     let (model, solver) = (self.model, self.solver);
                     let nearby = begin.is_some();

@@ -66,7 +66,7 @@ pub(super) fn row<M: Model<N>, R: Scalar, const N: usize>(
 ) -> Row {
     let PointRun { solver, values, interrupted, .. } = *run;
     let model = &model.variant(values);
-    let start = match start_at(model, values, from) {
+    let start = match start_at(model, solver, values, from) {
         Ok(start) => start,
         Err(error) => return Row::invalid(error),
     };
@@ -86,7 +86,7 @@ pub(super) fn trajectory<M: Model<N>, R: Scalar, const N: usize>(
     let PointRun { solver, values, interrupted, .. } = *run;
     let TrajectoryRequest { cycles, samples_per_cycle, settled } = *request;
     let model = &model.variant(values);
-    let mut start = start_at(model, values, from)?;
+    let mut start = start_at(model, solver, values, from)?;
     if settled {
         let settled = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| {
             settle(model, solver, start, from.is_some(), exchange)
@@ -108,7 +108,7 @@ pub(super) fn period<M: Model<N>, R: Scalar, const N: usize>(
 ) -> Result<Period, Unfinished> {
     let PointRun { solver, values, interrupted, .. } = *run;
     let model = &model.variant(values);
-    let start = start_at(model, values, Some(from))?;
+    let start = start_at(model, solver, values, Some(from))?;
     let Start { y, span, scale, tolerance_factor, .. } = start;
     let begin = Some(Start { constants: (), y, span, scale, tolerance_factor, change: scale });
     let ends = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| async move {
