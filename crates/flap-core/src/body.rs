@@ -32,11 +32,14 @@ crate::parameters! {
         body_velocity_left: f64 = ("m/s", "v", Number(Any), default: 0.0),
         /// Upward velocity of the body. For a single wing, velocity of the shoulder along the stroke axis.
         body_velocity_up: f64 = ("m/s", "w", Number(Any), default: 0.0),
-        /// Roll rate of the body. A positive rate lifts the left side.
+        /// Roll rate of the body. A positive rate lifts the left side. For a single wing, rate of the shoulder about the
+        /// direction of a positive stroke.
         body_rate_roll: f64 = ("rad/s", "p", Number(Any), default: 0.0),
-        /// Pitch rate of the body. A positive rate lowers the nose.
+        /// Pitch rate of the body. A positive rate lowers the nose. For a single wing, rate of the shoulder about the span
+        /// at zero stroke.
         body_rate_pitch: f64 = ("rad/s", "q", Number(Any), default: 0.0),
-        /// Yaw rate of the body. A positive rate turns the nose to the left.
+        /// Yaw rate of the body. A positive rate turns the nose to the left. For a single wing, rate of the shoulder about
+        /// the stroke axis.
         body_rate_yaw: f64 = ("rad/s", "r", Number(Any), default: 0.0),
         /// Response of the wings to the motion of the body. With "passive", stroke and pitch respond to the motion of
         /// the body. With "frozen", the wings move as if the body were at rest, and only the loads on the body change.
