@@ -89,7 +89,8 @@ pub(crate) struct VehicleArgs {
 const VEHICLE_HELP: &str = "\
 flap prints the mean force and torque of a vehicle at a point of a grid file with [vehicle], and the derivatives of force \
 and torque with respect to each input. flap also prints the combinations of inputs with the largest effects (singular \
-values). The derivatives are exact derivatives of the settled motion.
+values). The derivatives are exact derivatives of the settled motion. In the four-bar model, derivatives with respect \
+to the motion of the body are central differences, with steps of 0.01 m/s and 1 rad/s.
 
 The words for inputs are amplitude, bias, frequency, second_harmonic, second_phase and third_harmonic. Append \
 _difference to a word for the value of the left wings minus the value of the right wings. Put the name of a wing \

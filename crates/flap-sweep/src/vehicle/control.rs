@@ -291,6 +291,7 @@ impl VehicleRun<'_> {
 
     /// Returns the control effectiveness of `inputs` at these values, from exact derivatives of the settled orbit.
     ///
+    /// In the four-bar model, derivatives with respect to the motion of the body are central differences.
     /// An unset parameter of one wing has the value of all wings.
     ///
     /// # Errors
