@@ -93,6 +93,16 @@ def test_what_cannot_be_followed(arguments, keywords, says):
     assert says in str(caught.value)
 
 
+def test_the_design_cannot_be_followed():
+    designs = {"preset": ["jafferis2016", "jafferis2016-improved"]}
+    with pytest.raises(ValueError, match="`preset` is a choice and cannot rise and fall"):
+        flapwing.respond(designs, "preset", start=1, stop=2, step=1)
+    with pytest.raises(ValueError, match="`preset` is a choice, so bands have no edge along it"):
+        flapwing.edges(
+            designs, "drive_frequency", "preset", start=120, stop=130, step=1, edge_start=1, edge_stop=2, edge_step=1
+        )
+
+
 def test_trajectories():
     settled = flapwing.trajectory("jafferis2016", cycles=2, samples=50)
     assert len(settled) == 101

@@ -138,7 +138,7 @@ fn followed<'py>(
         return Err(PyValueError::new_err(message));
     }
     let index = parameters::index(plan.simulator(), parameter)?;
-    let parameter = &plan.robot().model().parameters()[index];
+    let parameter = &plan.parameters()[index];
     let number = |value| number(parameter, value);
     let steps = match [number(start)?, number(stop)?, number(step)?] {
         [Some(start), Some(stop), Some(step)] => Some([start, stop, step]),
@@ -151,7 +151,8 @@ fn followed<'py>(
             return Err(PyValueError::new_err(message));
         }
     };
-    Along::new(plan, index, steps, number(tolerance)?, unstable).map_err(|error| impossible(&error))
+    let tolerance = number(tolerance)?;
+    Along::new(plan, index, steps, tolerance, unstable).map_err(|error| impossible(&error))
 }
 
 /// Returns a value of a parameter; `None` for a choice, because no curve follows a choice.
@@ -188,7 +189,7 @@ pub(crate) fn edges<'py>(
     let steps = first_range.each_ref().map(Option::as_ref);
     let (plan, along) = followed(design, first, steps, tolerance, false, keywords)?;
     let index = parameters::index(plan.simulator(), second)?;
-    let parameter = &plan.robot().model().parameters()[index];
+    let parameter = &plan.parameters()[index];
     let [from, to, step] = second_range.each_ref().map(|value| number(parameter, value.as_ref()));
     let limits = [from?, to?].map(|limit| limit.unwrap_or(f64::NAN));
     let second = EdgeRange::new(&plan, &along, index, limits, step?).map_err(|error| impossible(&error))?;
