@@ -101,5 +101,5 @@ fn devices_are_named_by_their_files_and_recorded_once() {
     drop(folder);
     let again = grid::parse_recorded(&name, text, both.devices(), &MODELS).expect("a plan");
     assert_eq!(points(&again), points(&both));
-    assert_eq!(again.simulator().parameters().len(), FLY.len() + 1);
+    assert_eq!(again.parameters().len(), FLY.len() + 1);
 }

@@ -172,9 +172,9 @@ fn words() -> impl Iterator<Item = String> {
 fn mentioned_models() -> Vec<Robot> {
     let mentioned = words().find_map(|word| {
         let named = models::preset(&word).map(|(model, _)| model).or_else(|| models::by_name(&word));
-        named.map(Robot::Wing).or_else(|| robot_of_grid(&word))
+        named.map(Robot::of_wing).or_else(|| robot_of_grid(&word))
     });
-    mentioned.map_or_else(|| models::all().iter().copied().map(Robot::Wing).collect(), |robot| vec![robot])
+    mentioned.map_or_else(|| models::all().iter().copied().map(Robot::of_wing).collect(), |robot| vec![robot])
 }
 
 fn robot_of_grid(word: &str) -> Option<Robot> {

@@ -98,7 +98,7 @@ fn refuse_twice(columns: &Bound<'_, PyDict>, keywords: &Bound<'_, PyDict>) -> Py
 
 /// Returns the parameter and the values of a column.
 fn read(plan: &Plan, name: &str, column: &Bound<'_, PyAny>) -> PyResult<(usize, Vec<f64>)> {
-    let index = parameters::index(plan.simulator(), name)?;
+    let index = parameters::index(plan.robot(), name)?;
     let parameter = &plan.parameters()[index];
     if let (Kind::Number(_) | Kind::Following(..), Ok(numbers)) =
         (&parameter.kind, column.cast::<PyArray1<f64>>())
@@ -130,7 +130,7 @@ fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
 fn with_slopes(plan: Plan, names: &[String]) -> PyResult<Plan> {
     let mut by = Vec::with_capacity(names.len());
     for name in names {
-        let index = parameters::index(plan.simulator(), name)?;
+        let index = parameters::index(plan.robot(), name)?;
         if by.contains(&index) {
             return Err(PyValueError::new_err(format!("`gradient` has {name} twice\nkeep one of them")));
         }

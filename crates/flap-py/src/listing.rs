@@ -108,7 +108,7 @@ pub(crate) fn model(design: &Bound<'_, PyAny>) -> PyResult<Robot> {
 fn find(design: &Bound<'_, PyAny>) -> PyResult<(Robot, Vec<f64>)> {
     let model = design.extract::<String>().ok().and_then(|name| simulate::by_name(&name));
     if let Some(model) = model {
-        return Ok((Robot::Wing(model), vec![f64::NAN; model.parameters().len()]));
+        return Ok((Robot::of_wing(model), vec![f64::NAN; model.parameters().len()]));
     }
     let plan = grid::plan(design)?;
     Ok((plan.robot().clone(), plan.point(0).values))

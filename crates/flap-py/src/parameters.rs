@@ -6,6 +6,7 @@ use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::{self, Simulator};
 use flap_sweep::notation::nearest;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
+use flap_sweep::plan::Robot;
 use pyo3::exceptions::{PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -38,8 +39,8 @@ pub(crate) fn find_preset(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Sim
 }
 
 /// Returns the index of the parameter `name`.
-pub(crate) fn index(simulator: &dyn Simulator, name: &str) -> PyResult<usize> {
-    Parameter::index(simulator.parameters(), name).ok_or_else(|| unknown_parameter(simulator, name))
+pub(crate) fn index(robot: &Robot, name: &str) -> PyResult<usize> {
+    Parameter::index(robot.parameters(), name).ok_or_else(|| unknown_parameter(robot, name))
 }
 
 /// Warns about a parameter for all wings of a vehicle that has no effect, because each wing sets its own value.
@@ -93,14 +94,14 @@ fn listed(options: &[&str]) -> String {
     options.iter().map(|option| format!("\"{option}\"")).collect::<Vec<_>>().join(", ")
 }
 
-fn unknown_parameter(simulator: &dyn Simulator, name: &str) -> PyErr {
-    let parameters: Vec<&str> = simulator.parameters().iter().map(|parameter| parameter.name).collect();
+fn unknown_parameter(robot: &Robot, name: &str) -> PyErr {
+    let parameters: Vec<&str> = robot.parameters().iter().map(|parameter| parameter.name).collect();
     let settings = solver::settings();
     // Misspelt solver settings are also reported here.
     let hint = did_you_mean(name, &[&parameters[..], &settings[..]].concat());
     PyValueError::new_err(format!(
         "model `{}` has no parameter `{name}`{hint} (parameters: {}; solver settings: {})",
-        simulator.name(),
+        robot.name(),
         parameters.join(", "),
         settings.join(", "),
     ))

@@ -10,7 +10,7 @@ use crate::{error, listing, parameters};
 #[pyo3(signature = (model, parameter, value, /))]
 pub(crate) fn value(model: &Bound<'_, PyAny>, parameter: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let model = listing::model(model)?;
-    let index = parameters::index(&*model, parameter)?;
+    let index = parameters::index(&model, parameter)?;
     parameters::value_of(&model.parameters()[index], value)
 }
 
@@ -19,7 +19,7 @@ pub(crate) fn value(model: &Bound<'_, PyAny>, parameter: &str, value: &Bound<'_,
 #[pyo3(signature = (model, parameter, /))]
 pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<String> {
     let model = listing::model(model)?;
-    Ok(model.parameters()[parameters::index(&*model, parameter)?].name.to_owned())
+    Ok(model.parameters()[parameters::index(&model, parameter)?].name.to_owned())
 }
 
 /// Parse a text such as `"3 mm"`, and return the number in `unit`. Both units must measure the same kind of quantity.

@@ -137,7 +137,7 @@ fn followed<'py>(
             "the grid runs each design at its resonance: set drive_frequency to a number, or follow it";
         return Err(PyValueError::new_err(message));
     }
-    let index = parameters::index(plan.simulator(), parameter)?;
+    let index = parameters::index(plan.robot(), parameter)?;
     let parameter = &plan.parameters()[index];
     let number = |value| number(parameter, value);
     let steps = match [number(start)?, number(stop)?, number(step)?] {
@@ -188,7 +188,7 @@ pub(crate) fn edges<'py>(
     let options = sweep::options(threads)?;
     let steps = first_range.each_ref().map(Option::as_ref);
     let (plan, along) = followed(design, first, steps, tolerance, false, keywords)?;
-    let index = parameters::index(plan.simulator(), second)?;
+    let index = parameters::index(plan.robot(), second)?;
     let parameter = &plan.parameters()[index];
     let [from, to, step] = second_range.each_ref().map(|value| number(parameter, value.as_ref()));
     let limits = [from?, to?].map(|limit| limit.unwrap_or(f64::NAN));

@@ -53,9 +53,9 @@ impl Reader<'_> {
         check_description(root, problems);
         let Some(entry) = table::find(root, "device") else {
             let (model, preset) = read_preset(root, self.models, problems)?;
-            let values = Value::of_preset(model, preset);
+            let values = Value::of_preset(model.parameters(), preset);
             return Some(Base {
-                robot: Robot::Wing(model),
+                robot: Robot::of_wing(model),
                 preset,
                 values,
                 with_units: WithUnits::default(),
@@ -146,7 +146,7 @@ impl Base {
         models: &[&'static dyn Simulator],
         problems: &mut Problems,
     ) -> Vec<(usize, Range<usize>)> {
-        let mut lookup = Lookup { simulator: &*self.robot, models, problems };
+        let mut lookup = Lookup { robot: &self.robot, models, problems };
         let mut set = Vec::new();
         let params = table::find(root, "params").map(|entry| table::section(entry, lookup.problems));
         for entry in params.unwrap_or_default() {

@@ -1,7 +1,6 @@
 //! Section `[gradient]`: columns with the derivatives of measures with respect to parameters.
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::Simulator;
 use toml::Spanned;
 use toml::de::DeValue;
 
@@ -11,6 +10,7 @@ use super::table::{self, Entry};
 use super::value;
 use crate::derivative::Per;
 use crate::notation::expression::Kind;
+use crate::plan::Robot;
 use crate::plan::formula::Derived;
 use crate::plan::gradient::{Gradient, check};
 use crate::vehicle::BodyRows;
@@ -21,7 +21,7 @@ pub(super) const KEYS: [&str; 2] = ["of", "with_respect_to"];
 /// the derived parameters.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
-    simulator: &dyn Simulator,
+    robot: &Robot,
     names: &Names<'_>,
     derived: &Derived,
     at_resonance: bool,
@@ -37,7 +37,7 @@ pub(super) fn read(
             .note("the resonance changes with the design, and flap does not compute this change")
             .help("set drive_frequency, or remove [gradient]");
     }
-    if let Err(error) = simulator.gradients() {
+    if let Err(error) = robot.gradients() {
         problems.report(entry.key_span.clone(), error.to_string());
     }
     for key in KEYS {

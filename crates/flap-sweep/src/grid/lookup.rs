@@ -8,10 +8,11 @@ use flap_core::vehicle::{DIFFERENCE, Vehicle, of_all_wings};
 
 use super::diagnostic::{Diagnostic, Problems};
 use super::table::Entry;
+use crate::plan::Robot;
 
-/// Model in which parameters are looked up, and the list of mistakes for unknown parameters.
+/// Robot in which parameters are looked up, and the list of mistakes for unknown parameters.
 pub(super) struct Lookup<'l> {
-    pub(super) simulator: &'l dyn Simulator,
+    pub(super) robot: &'l Robot,
     pub(super) models: &'l [&'static dyn Simulator],
     pub(super) problems: &'l mut Problems,
 }
@@ -19,7 +20,7 @@ pub(super) struct Lookup<'l> {
 impl<'l> Lookup<'l> {
     /// Returns the parameter called `name` and the index of this parameter. An unknown name is reported at `span`.
     pub(super) fn named(&mut self, name: &str, span: Range<usize>) -> Option<(usize, &'l Parameter<'l>)> {
-        let known = self.simulator.parameters();
+        let known = self.robot.parameters();
         let found = Parameter::index(known, name).map(|index| (index, &known[index]));
         if found.is_none() {
             self.report_unknown(name, span, known);
@@ -33,7 +34,7 @@ impl<'l> Lookup<'l> {
     }
 
     fn report_unknown(&mut self, name: &str, span: Range<usize>, known: &[Parameter<'_>]) {
-        let model = self.simulator.name();
+        let model = self.robot.name();
         let owners: Vec<&str> = self
             .models
             .iter()
@@ -63,7 +64,7 @@ impl<'l> Lookup<'l> {
 
     /// Returns the name of parameter number `index`.
     pub(super) fn name(&self, index: usize) -> &'l str {
-        self.simulator.parameters()[index].name
+        self.robot.parameters()[index].name
     }
 }
 

@@ -3,21 +3,20 @@
 use std::path::PathBuf;
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::Simulator;
 use toml::Spanned;
 use toml::de::DeValue;
 
 use super::diagnostic::Problems;
 use super::table::{self, Entry};
 use super::value;
-use crate::plan::Output;
+use crate::plan::{Output, Robot};
 use crate::table::format::Format;
 use crate::table::layout::{POINT, RUN, STATUS};
 
 pub(super) const KEYS: [&str; 2] = ["path", "columns"];
 
-/// A model, and the names of the measured columns, including the user's measures.
-type Measured<'m> = (&'m dyn Simulator, &'m [String]);
+/// A robot, and the names of the measured columns, including the user's measures.
+type Measured<'m> = (&'m Robot, &'m [String]);
 
 /// Reads the section. Column names are checked only if the model is known.
 pub(super) fn read(
@@ -82,7 +81,7 @@ fn names(measures: &[String]) -> impl Iterator<Item = &str> {
 }
 
 fn report_unknown(
-    (model, columns): Measured<'_>,
+    (robot, columns): Measured<'_>,
     name: &str,
     item: &Spanned<DeValue<'_>>,
     problems: &mut Problems,
@@ -93,7 +92,7 @@ fn report_unknown(
             .help(format!("remove `{name}`"));
         return;
     }
-    if Parameter::index(model.parameters(), name).is_some() {
+    if Parameter::index(robot.parameters(), name).is_some() {
         problems
             .report(item.span(), format!("`{name}` is a parameter, not a measure"))
             .note("rows contain all varied and derived parameters")
@@ -101,7 +100,7 @@ fn report_unknown(
         return;
     }
     problems
-        .report(item.span(), format!("model `{}` has no column `{name}`", model.name()))
+        .report(item.span(), format!("model `{}` has no column `{name}`", robot.name()))
         .label("unknown column")
         .note(format!("columns: {}", names(columns).collect::<Vec<_>>().join(", ")))
         .did_you_mean(name, names(columns));

@@ -20,7 +20,7 @@ use super::{axes, gradient, output, refine, resonance, sample, solver};
 use crate::input::{self, InputError, MOST_BYTES};
 use crate::plan::axes::{Axes, Axis};
 use crate::plan::formula::{Condition, Derived};
-use crate::plan::{Differences, Plan, PointsFile, Source, Space, Value};
+use crate::plan::{Differences, Plan, PointsFile, Robot, Source, Space, Value};
 use crate::resonance::AtResonance;
 use crate::vehicle::BodyRows;
 
@@ -130,7 +130,6 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         return Err(problems.into_mistakes());
     };
     let (robot, preset) = (start.base.robot.clone(), start.base.preset);
-    let simulator = &*robot;
     let Points {
         base,
         differences,
@@ -142,19 +141,19 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
         conditions,
         unreached,
         mut names,
-    } = read_points(&root, start, simulator, settings, reader.models, &mut problems);
+    } = read_points(&root, start, &robot, settings, reader.models, &mut problems);
     names.are_measured = true;
     let measure_names = formula::read_measures(table::find(&root, "measure"), &mut names, &mut problems);
     let section = table::find(&root, "gradient");
     let at_resonance = resonance.is_some();
     let gradient =
-        gradient::read(section, simulator, &names, &derived, at_resonance, body.as_ref(), &mut problems);
+        gradient::read(section, &robot, &names, &derived, at_resonance, body.as_ref(), &mut problems);
     let columns =
         names.columns.iter().map(|column| column.name.clone()).chain(measure_names).collect::<Vec<_>>();
-    let output = output::read(output_entry, Some((simulator, &columns)), &mut problems);
+    let output = output::read(output_entry, Some((&robot, &columns)), &mut problems);
     let refine = table::find(&root, "refine").and_then(|section| {
         let rows = refine::Rows { columns: &columns, own: &names.own, output: &output };
-        let mut lookup = Lookup { simulator, models: reader.models, problems: &mut problems };
+        let mut lookup = Lookup { robot: &robot, models: reader.models, problems: &mut problems };
         refine::read(section, &axes, table::find(&root, "sample"), &rows, &mut lookup)
     });
 
@@ -210,7 +209,7 @@ struct Points<'n> {
 fn read_points<'n>(
     root: &[Entry<'_>],
     start: Start,
-    simulator: &'n dyn Simulator,
+    robot: &'n Robot,
     settings: VehicleSettings,
     models: &[&'static dyn Simulator],
     problems: &mut Problems,
@@ -220,7 +219,8 @@ fn read_points<'n>(
     for (parameter, _) in &set {
         differences.remove(*parameter);
     }
-    let mut lookup = Lookup { simulator, models, problems };
+    let parameters = robot.parameters();
+    let mut lookup = Lookup { robot, models, problems };
     let mut axes: Vec<axes::Placed> = axis.into_iter().collect();
     axes.extend(axes::read(table::find(root, "axes"), &mut lookup));
     axes.extend(axes::read_zip(table::find(root, "zip"), &mut lookup));
@@ -228,8 +228,8 @@ fn read_points<'n>(
     let varied = axes.iter().flat_map(|placed| placed.axis.parameters()).map(|(parameter, _)| *parameter);
     let derived = drafts.iter().map(|(parameter, _)| *parameter);
     let moved: Vec<usize> =
-        varied.chain(derived).chain(sample::sampled(table::find(root, "sample"), simulator)).collect();
-    let means = default_means(&base, simulator, &moved);
+        varied.chain(derived).chain(sample::sampled(table::find(root, "sample"), parameters)).collect();
+    let means = default_means(&base, parameters, &moved);
     let sample = sample::read(table::find(root, "sample"), &base, &means, &mut lookup);
     let (sampled, sample_file) = sample.map_or((None, None), |(placed, file)| (Some(placed), file));
     axes.extend(sampled);
@@ -261,7 +261,7 @@ fn read_points<'n>(
         set.iter().map(|(parameter, _)| *parameter).chain(moved.iter().copied()).collect();
     let is_set = |parameter: usize| base.values[parameter].given().is_some() || moved.contains(&parameter);
     let body = settings.body_rows(&base, is_set, &varied, &derived, problems);
-    settings.report_frequencies(simulator.parameters(), |parameter| chosen.contains(&parameter), problems);
+    settings.report_frequencies(parameters, |parameter| chosen.contains(&parameter), problems);
     let unreached =
         base.robot.vehicle().map_or_else(Vec::new, |vehicle| vehicle::unreached(vehicle, &chosen, is_set));
 
@@ -272,13 +272,12 @@ fn read_points<'n>(
     for parameter in moved {
         unset[parameter] = None;
     }
-    let parameters = simulator.parameters();
-    let preset = presets.into_iter().map(|preset| Value::of_preset(simulator, preset)).collect();
+    let preset = presets.into_iter().map(|preset| Value::of_preset(parameters, preset)).collect();
     let device = (!base.devices.is_empty()).then_some(designs);
     let columns = match (&resonance, &body) {
         (Some(resonance), _) => resonance.columns(),
         (None, Some(body)) => body.columns(),
-        (None, None) => simulator.columns(),
+        (None, None) => robot.columns(),
     };
     let columns = columns.to_vec();
     let is_input = |index: &usize| body.as_ref().is_some_and(|body| body.has_input(*index));
@@ -294,10 +293,10 @@ fn read_points<'n>(
 ///
 /// An unset parameter of one wing has the value of all wings, unless this value is in `moved`: varied, sampled or
 /// derived.
-fn default_means(base: &Base, simulator: &dyn Simulator, moved: &[usize]) -> Vec<Value> {
+fn default_means(base: &Base, parameters: &[Parameter<'_>], moved: &[usize]) -> Vec<Value> {
     let mean = |index: usize| {
         let own = base.values[index];
-        let shared = of_all_wings(simulator.parameters(), index);
+        let shared = of_all_wings(parameters, index);
         let shared = shared.filter(|shared| own.given().is_none() && !moved.contains(shared));
         shared.map_or(own, |shared| base.values[shared])
     };

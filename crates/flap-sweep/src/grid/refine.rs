@@ -76,7 +76,7 @@ fn along(
     axes: &[Placed],
     lookup: &mut Lookup<'_>,
 ) -> Option<Vec<usize>> {
-    let parameters = lookup.simulator.parameters();
+    let parameters = lookup.robot.parameters();
     let mut along = if let Some(entry) = listed {
         listed_axes(entry, axes, lookup)
     } else {
@@ -126,7 +126,7 @@ fn listed_axes(entry: &Entry<'_>, axes: &[Placed], lookup: &mut Lookup<'_>) -> V
             let message = format!("`{name}` is listed twice");
             lookup.report(item.span(), message).help("keep one of them");
         }
-        if let Some(reason) = not_refined(&axes[place].axis, lookup.simulator.parameters()) {
+        if let Some(reason) = not_refined(&axes[place].axis, lookup.robot.parameters()) {
             lookup
                 .report(item.span(), format!("no points can be added along `{name}`: {reason}"))
                 .related(axes[place].span.clone(), "its axis")
@@ -179,11 +179,11 @@ fn measures(entry: &Entry<'_>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) -> Vec<
 fn check_measure(name: &str, item: &Spanned<DeValue<'_>>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) {
     let problems = &mut *lookup.problems;
     let Some(index) = rows.columns.iter().position(|known| known == name) else {
-        if Parameter::index(lookup.simulator.parameters(), name).is_some() {
+        if Parameter::index(lookup.robot.parameters(), name).is_some() {
             problems.report(item.span(), format!("`{name}` is a parameter, not a measure"));
             return;
         }
-        let model = lookup.simulator.name();
+        let model = lookup.robot.name();
         problems
             .report(item.span(), format!("model `{model}` has no measure `{name}`"))
             .label("unknown measure")

@@ -7,7 +7,6 @@ mod file;
 use std::sync::Arc;
 
 use flap_core::parameter::Parameter;
-use flap_core::simulate::Simulator;
 use toml::de::DeInteger;
 
 use super::axes::{self, Placed};
@@ -18,7 +17,7 @@ use super::table::{self, Entry};
 use super::value;
 use crate::plan::axes::{Axis, Values};
 use crate::plan::sample::{Method, SamplePoints};
-use crate::plan::{PointsFile, Robot, Value};
+use crate::plan::{PointsFile, Value};
 
 pub(super) const KEYS: [&str; 5] = ["method", "n", "seed", "of", "parameters"];
 pub(super) const FILE_KEYS: [&str; 2] = ["method", "path"];
@@ -102,11 +101,11 @@ pub(super) fn read(
 }
 
 /// Returns the known parameters in `[sample.parameters]`, without reports of mistakes.
-pub(super) fn sampled(section: Option<&Entry<'_>>, simulator: &dyn Simulator) -> Vec<usize> {
+pub(super) fn sampled(section: Option<&Entry<'_>>, parameters: &[Parameter<'_>]) -> Vec<usize> {
     let sample = section.and_then(|section| section.value.get_ref().as_table());
-    let parameters = sample.and_then(|sample| sample.get("parameters")?.get_ref().as_table());
-    let names = parameters.into_iter().flat_map(|parameters| parameters.keys());
-    names.filter_map(|name| Parameter::index(simulator.parameters(), name.get_ref())).collect()
+    let sampled = sample.and_then(|sample| sample.get("parameters")?.get_ref().as_table());
+    let names = sampled.into_iter().flat_map(|sampled| sampled.keys());
+    names.filter_map(|name| Parameter::index(parameters, name.get_ref())).collect()
 }
 
 /// Returns a sample of copies of the device, which vary in all parameters with standard errors, with the correlations
@@ -127,7 +126,7 @@ fn of_device(
             .help("keep one of them");
         return None;
     }
-    if let Robot::Designs(_) = base.robot {
+    if base.robot.has_designs() {
         lookup
             .report(of.value.span(), "a sample draws builds of one device, but the grid has several designs")
             .help("write a grid file for each device");

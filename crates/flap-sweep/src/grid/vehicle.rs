@@ -83,7 +83,7 @@ impl VehicleSettings {
         problems: &mut Problems,
     ) -> Option<BodyRows> {
         let asked = self.trim.as_ref().or(self.damping.as_ref())?;
-        let Robot::Vehicle(vehicle) = &base.robot else {
+        let Some(vehicle) = base.robot.vehicle().filter(|_| !base.robot.has_designs()) else {
             problems
                 .report(asked.clone(), "rows at hover, and rows with the damping matrix, are for one design")
                 .help("write a grid file for each device");
@@ -197,7 +197,7 @@ pub(super) fn read(
         vehicle_reader.wing(index, wing);
     }
     let (shared, settings) = (vehicle_reader.shared, vehicle_reader.settings);
-    Some((Base { robot: Robot::Vehicle(vehicle), ..shared }, settings))
+    Some((Base { robot: Robot::of_vehicle(vehicle), ..shared }, settings))
 }
 
 /// Returns the parameters among `chosen` that affect no wing, because each wing has its own value.
@@ -477,7 +477,8 @@ impl VehicleReader<'_> {
     /// Reads a parameter that applies to one wing only.
     fn own_parameter(&mut self, index: usize, entry: &Entry<'_>) {
         let model = self.vehicle.model();
-        let mut lookup = Lookup { simulator: model, models: self.reader.models, problems: self.problems };
+        let robot = Robot::of_wing(model);
+        let mut lookup = Lookup { robot: &robot, models: self.reader.models, problems: self.problems };
         let Some((place, _)) = lookup.parameter(entry) else { return };
         let parameter = &model.parameters()[place];
         let Some(target) = self.vehicle.own_parameter(index, parameter.name) else {

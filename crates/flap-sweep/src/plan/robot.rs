@@ -3,12 +3,8 @@
 use std::ops::Deref;
 use std::sync::Arc;
 
-use flap_core::aero::Wing;
-use flap_core::num::Backend;
-use flap_core::parameter::{Kind, Parameter, Preset};
-use flap_core::simulate::{
-    Column, Experiments, Gradients, Jobs, Motions, PointRun, Row, Rows, Simulator, SolverSettings, Unfinished,
-};
+use flap_core::parameter::{Kind, Parameter};
+use flap_core::simulate::Simulator;
 use flap_core::vehicle::Vehicle;
 use self_cell::self_cell;
 
@@ -16,58 +12,93 @@ use crate::notation::expression::of_choice;
 
 /// Simulator of a plan's points: a model of one wing or a vehicle, with one or several designs.
 #[derive(Clone)]
-pub enum Robot {
-    /// A model.
-    Wing(&'static dyn Simulator),
+pub struct Robot {
+    wings: Wings,
+    /// Parameters of several designs. Points of several designs have one more value, the number of the design. This
+    /// value has no effect on rows, because points contain the values of their design.
+    designs: Option<Arc<Table>>,
+}
+
+#[derive(Clone)]
+enum Wings {
+    /// A model of one wing.
+    One(&'static dyn Simulator),
     /// A vehicle with several wings of a model.
     Vehicle(Arc<Vehicle>),
-    /// A model or a vehicle with one more parameter, which is the name of the design.
-    Designs(Arc<Designs>),
 }
 
 impl Robot {
+    /// Returns one wing of a model.
+    pub fn of_wing(model: &'static dyn Simulator) -> Robot {
+        Robot { wings: Wings::One(model), designs: None }
+    }
+
+    pub(crate) fn of_vehicle(vehicle: Arc<Vehicle>) -> Robot {
+        Robot { wings: Wings::Vehicle(vehicle), designs: None }
+    }
+
     /// Returns the model of the wings.
     pub fn model(&self) -> &'static dyn Simulator {
-        match self {
-            Robot::Wing(model) => *model,
-            Robot::Vehicle(vehicle) => vehicle.model(),
-            Robot::Designs(designs) => designs.robot().model(),
+        match &self.wings {
+            Wings::One(model) => *model,
+            Wings::Vehicle(vehicle) => vehicle.model(),
         }
     }
 
     /// Returns the vehicle, if there is one.
-    pub fn vehicle(&self) -> Option<&Vehicle> {
-        match self {
-            Robot::Wing(_) => None,
-            Robot::Vehicle(vehicle) => Some(vehicle),
-            Robot::Designs(designs) => designs.robot().vehicle(),
+    pub fn vehicle(&self) -> Option<&Arc<Vehicle>> {
+        match &self.wings {
+            Wings::One(_) => None,
+            Wings::Vehicle(vehicle) => Some(vehicle),
         }
+    }
+
+    /// Returns the parameters of points: the parameters of the simulator, and the parameter that names the design if
+    /// there are several designs.
+    pub fn parameters(&self) -> &[Parameter<'_>] {
+        match &self.designs {
+            Some(table) => table.borrow_dependent(),
+            None => self.wings.parameters(),
+        }
+    }
+
+    /// Returns true if there are several designs.
+    pub(crate) fn has_designs(&self) -> bool {
+        self.designs.is_some()
     }
 
     /// Returns the robot with one more parameter at the end: a choice called `name` between designs with these labels.
     pub(crate) fn with_designs(self, name: &'static str, labels: Vec<String>) -> Robot {
         let doc = if name == "preset" { PRESET_DOC } else { DEVICE_DOC };
         let labels = Labels::new(labels, |labels| labels.iter().map(String::as_str).collect());
-        let table = Table::new((self, labels), |(robot, labels)| {
+        let table = Table::new((self.wings.clone(), labels), |(wings, labels)| {
             let kind = Kind::Choice(labels.borrow_dependent());
             let own = Parameter { default: 0.0, group: "design", ..Parameter::new(name, "", "", kind, doc) };
-            robot.parameters().iter().copied().chain([own]).collect()
+            wings.parameters().iter().copied().chain([own]).collect()
         });
-        Robot::Designs(Arc::new(Designs { table }))
+        Robot { designs: Some(Arc::new(table)), ..self }
     }
 }
 
 const DEVICE_DOC: &str = "Device of the design: the name of its file, without folder and ending.";
 const PRESET_DOC: &str = "Preset of the design.";
 
+/// The simulator of the wings. Its parameters do not name the design, see [`Robot::parameters`].
 impl Deref for Robot {
     type Target = dyn Simulator;
 
     fn deref(&self) -> &Self::Target {
+        &*self.wings
+    }
+}
+
+impl Deref for Wings {
+    type Target = dyn Simulator;
+
+    fn deref(&self) -> &Self::Target {
         match self {
-            Robot::Wing(model) => *model,
-            Robot::Vehicle(vehicle) => &**vehicle,
-            Robot::Designs(designs) => &**designs,
+            Wings::One(model) => *model,
+            Wings::Vehicle(vehicle) => &**vehicle,
         }
     }
 }
@@ -86,83 +117,13 @@ self_cell!(
 type Parameters<'a> = Vec<Parameter<'a>>;
 
 self_cell!(
-    /// All parameters, with the robot and the labels from which they borrow.
+    /// All parameters, with the wings and the labels from which they borrow.
     struct Table {
-        owner: (Robot, Labels),
+        owner: (Wings, Labels),
         #[covariant]
         dependent: Parameters,
     }
 );
-
-/// A model or a vehicle with one more parameter, which is the name of the design.
-///
-/// The additional parameter only labels the points. The additional parameter has no effect on rows, because points
-/// contain the values of their design.
-pub struct Designs {
-    table: Table,
-}
-
-impl Designs {
-    fn robot(&self) -> &Robot {
-        &self.table.borrow_owner().0
-    }
-}
-
-impl Rows for Designs {
-    fn columns(&self) -> &[Column] {
-        self.robot().columns()
-    }
-
-    fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs) {
-        self.robot().run(backend, solver, jobs);
-    }
-
-    fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
-        self.robot().run_point(run, begin)
-    }
-}
-
-impl Simulator for Designs {
-    fn name(&self) -> &'static str {
-        self.robot().name()
-    }
-
-    fn doc(&self) -> &'static str {
-        self.robot().doc()
-    }
-
-    fn parameters(&self) -> &[Parameter<'_>] {
-        self.table.borrow_dependent()
-    }
-
-    fn presets(&self) -> &'static [Preset] {
-        self.robot().presets()
-    }
-
-    fn pitch_sign(&self) -> i8 {
-        self.robot().pitch_sign()
-    }
-
-    fn wing(&self, wing: &Wing) -> Vec<(&'static str, f64)> {
-        self.robot().wing(wing)
-    }
-
-    fn has_loads(&self) -> bool {
-        self.robot().has_loads()
-    }
-
-    fn gradients(&self) -> Result<&dyn Gradients, Unfinished> {
-        self.robot().gradients()
-    }
-
-    fn motions(&self) -> Result<&dyn Motions, Unfinished> {
-        self.robot().motions()
-    }
-
-    fn experiments(&self) -> Result<&dyn Experiments, Unfinished> {
-        self.robot().experiments()
-    }
-}
 
 /// Values of the parameters in which the designs of a plan differ.
 #[derive(Clone, Debug, Default)]

@@ -103,19 +103,21 @@ impl Plan {
         &self.space.robot
     }
 
-    /// Returns the model, or the vehicle if the points are vehicles.
+    /// Returns the model, or the vehicle if the points are vehicles. Its parameters do not name the design, see
+    /// [`Plan::parameters`].
     pub fn simulator(&self) -> &dyn Simulator {
         &**self.robot()
     }
 
     /// Returns the vehicle, if the points are vehicles.
     pub fn vehicle(&self) -> Option<&Vehicle> {
-        self.robot().vehicle()
+        self.robot().vehicle().map(Arc::as_ref)
     }
 
-    /// Returns the model's parameter table.
+    /// Returns the parameters of points: the model's parameter table, and the parameter that names the design if the
+    /// plan has several designs.
     pub fn parameters(&self) -> &[Parameter<'_>] {
-        self.simulator().parameters()
+        self.robot().parameters()
     }
 
     /// Returns the search for resonances, if each design is run at its own resonance.
@@ -154,7 +156,7 @@ impl Plan {
 
     /// Returns the index of the parameter that names the design, if the plan has several designs.
     pub fn design(&self) -> Option<usize> {
-        matches!(self.robot(), Robot::Designs(_)).then(|| self.parameters().len() - 1)
+        self.robot().has_designs().then(|| self.parameters().len() - 1)
     }
 
     /// Returns the values of a parameter in the designs of the plan, if the plan has several designs with different

@@ -3,7 +3,6 @@
 use std::collections::BTreeSet;
 
 use flap_core::parameter::{Kind, Parameter, Preset};
-use flap_core::simulate::Simulator;
 
 /// Value of a parameter before the axes are applied.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,13 +18,12 @@ pub enum Value {
 }
 
 impl Value {
-    /// Returns the values of a preset of `model`, one per parameter. Parameters that the preset lacks have default
-    /// values.
-    pub(crate) fn of_preset(model: &dyn Simulator, preset: &Preset) -> Vec<Value> {
+    /// Returns the values of a preset, one per parameter. Parameters that the preset lacks have default values.
+    pub(crate) fn of_preset(parameters: &[Parameter<'_>], preset: &Preset) -> Vec<Value> {
         let given = (preset.values)();
         // A vehicle has more parameters than its model.
-        let more = model.parameters().iter().skip(given.len()).map(|parameter| parameter.default);
-        let values = model.parameters().iter().zip(given.iter().copied().chain(more));
+        let more = parameters.iter().skip(given.len()).map(|parameter| parameter.default);
+        let values = parameters.iter().zip(given.iter().copied().chain(more));
         let value = |(parameter, value): (&Parameter, f64)| match parameter.kind {
             Kind::Following(_, follows) if value.is_nan() => Value::Follows(follows),
             Kind::Following(..) | Kind::Number(_) | Kind::Choice(_) => Value::Given(value),

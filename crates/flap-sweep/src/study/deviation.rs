@@ -72,7 +72,7 @@ fn compare(plan: &Plan, values: Vec<Vec<f64>>, has_unit: impl Fn(usize) -> bool)
 fn of_preset(plan: &Plan, preset: &Preset) -> Vec<f64> {
     let parameters = plan.parameters();
     let values: Vec<f64> =
-        Value::of_preset(plan.simulator(), preset).into_iter().map(Value::in_point).collect();
+        Value::of_preset(plan.parameters(), preset).into_iter().map(Value::in_point).collect();
     let own = parameters.iter().zip(&values).map(|(parameter, value)| match parameter.kind {
         Kind::Following(_, shared) if value.is_nan() && plan.vehicle().is_some() => {
             Parameter::index(parameters, shared).map_or(*value, |index| values[index])

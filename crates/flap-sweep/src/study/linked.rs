@@ -52,8 +52,8 @@ fn reference(plan: &Plan, preset: Option<&Preset>, index: usize) -> Option<Strin
         return None;
     }
     let published = preset.filter(|_| plan.devices().is_empty());
-    let is_published =
-        published.is_some_and(|preset| Value::of_preset(plan.simulator(), preset)[index].in_point() == value);
+    let is_published = published
+        .is_some_and(|preset| Value::of_preset(plan.parameters(), preset)[index].in_point() == value);
     Some(if is_published {
         format!("preset.{}", plan.parameters()[index].name)
     } else {

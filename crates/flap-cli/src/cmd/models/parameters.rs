@@ -77,7 +77,7 @@ impl Values {
             [format!("{}: {}", model.name(), model.doc()), format!("presets: {}", presets.join(", "))]
         };
         Ok(Values {
-            robot: Robot::Wing(model),
+            robot: Robot::of_wing(model),
             lines,
             numbers: preset.map(|preset| (preset.values)()),
             errors: Vec::new(),

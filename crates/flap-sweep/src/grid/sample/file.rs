@@ -135,9 +135,9 @@ fn heading<'t, 'p>(
         lookup.problems.report_in(source, span.clone(), message).help(help);
         return None;
     };
-    let known = lookup.simulator.parameters();
+    let known = lookup.robot.parameters();
     let Some(index) = Parameter::index(known, name) else {
-        let message = format!("model `{}` has no parameter `{name}`", lookup.simulator.name());
+        let message = format!("model `{}` has no parameter `{name}`", lookup.robot.name());
         let diagnostic = lookup.problems.report_in(source, span.clone(), message);
         if diagnostic.did_you_mean(name, known.iter().map(|parameter| parameter.name)).help.is_empty() {
             diagnostic.help("the first line names the parameters; `flap models` lists them");
