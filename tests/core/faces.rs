@@ -1,7 +1,7 @@
 //! A model that has only rows, lists of points, and the texts of errors.
 
+use flap_core::model::Description;
 use flap_core::num::Backend;
-use flap_core::parameter::{Parameter, Preset};
 use flap_core::simulate::{
     ChirpRequest, Column, Jobs, Point, PointRun, RequestError, Row, Rows, Simulator, SolverSettings, Status,
     TrajectoryRequest, Unfinished, never, preset, run_list,
@@ -34,20 +34,8 @@ impl Rows for Backwards {
 }
 
 impl Simulator for Backwards {
-    fn name(&self) -> &'static str {
-        "backwards"
-    }
-
-    fn doc(&self) -> &'static str {
-        ""
-    }
-
-    fn parameters(&self) -> &'static [Parameter<'static>] {
-        &[]
-    }
-
-    fn presets(&self) -> &'static [Preset] {
-        &[]
+    fn description(&self) -> Description<'_> {
+        Description::new("backwards", "", &[], &[])
     }
 }
 

@@ -96,7 +96,7 @@ fn load<M: ExperimentModel<4>>(
     for (name, value) in BodyParameters::MOTION.into_iter().zip(motion) {
         values[index::<M>(name)] = value;
     }
-    let pitch = [psi, psi_dot, psi_ddot].map(|value| f64::from(M::PITCH_SIGN) * value);
+    let pitch = [psi, psi_dot, psi_ddot].map(|value| f64::from(M::DESCRIPTION.pitch_sign) * value);
     let model = model.variant(&values);
     let c = model.start(&values).unwrap().constants;
     let (y, dy, input) = M::placed(&c, [phi, phi_dot, phi_ddot], pitch);

@@ -28,7 +28,7 @@ fn a_rectangle_has_its_moments() {
     let of = |parameters: Vec<(&str, f64)>, name: &str| {
         parameters.iter().find(|(other, _)| *other == name).map(|(_, value)| *value).unwrap()
     };
-    let lumped = |name| of(Bimorph::wing(&wing), name);
+    let lumped = |name| of(Bimorph::DESCRIPTION.wing.unwrap()(&wing), name);
     let [radius_2, width_2] = [lumped("wing_radius_2") * 12e-3, lumped("wing_width_2") * 2e-3];
     close(radius_2 * radius_2 * 30e-6, 3e-3 * (12e-3_f64.powi(3) - 2e-3_f64.powi(3)) / 3.0);
     let width_moment = width_2 * width_2 * 30e-6;
@@ -41,7 +41,7 @@ fn a_rectangle_has_its_moments() {
     close(masses.depth, 0.5e-3);
     // About the chordwise axis count distances along the span.
     let [span, product, chord] = ["wing_inertia_chord", "wing_inertia_product", "wing_inertia_span"]
-        .map(|name| of(DirectDrive::wing(&wing), name));
+        .map(|name| of(DirectDrive::DESCRIPTION.wing.unwrap()(&wing), name));
     close(span, 0.6e-6 * 1e-4 / 12.0);
     close(chord, 0.6e-6 * 9e-6 / 12.0);
     assert!(product.abs() < 1e-24, "{product}");

@@ -75,12 +75,8 @@ impl Ode<2> for Oscillator {
 impl Model<2> for Oscillator {
     type Signals = Signals;
 
-    const DESCRIPTION: Description = Description {
-        name: "oscillator",
-        doc: "a wing on a spring",
-        parameters: Params::TABLE,
-        presets: &[],
-    };
+    const DESCRIPTION: Description<'static> =
+        Description::new("oscillator", "a wing on a spring", Params::TABLE, &[]);
     const STATES: [&'static str; 2] = ["stroke_rad", "stroke_rate_rad_s"];
     const DERIVED: &'static [Derived<Self, Constants<f64>, Signals>] = &[
         Derived::new("twice_load_per_load", "", "two, and a ratio of zeros without a load", |_, c, _| {

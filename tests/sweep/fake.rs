@@ -2,7 +2,7 @@
 
 use std::sync::LazyLock;
 
-use flap_core::model::OverWings;
+use flap_core::model::{Description, OverWings};
 use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{Column, Jobs, PointRun, Row, Rows, Simulator, SolverSettings};
@@ -32,20 +32,8 @@ impl Rows for Fake {
 }
 
 impl Simulator for Fake {
-    fn name(&self) -> &'static str {
-        self.name
-    }
-
-    fn doc(&self) -> &'static str {
-        "a fake"
-    }
-
-    fn parameters(&self) -> &'static [Parameter<'static>] {
-        self.parameters
-    }
-
-    fn presets(&self) -> &'static [Preset] {
-        self.presets
+    fn description(&self) -> Description<'_> {
+        Description::new(self.name, "a fake", self.parameters, self.presets)
     }
 }
 

@@ -3,7 +3,7 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use flap_core::model::OverWings;
+use flap_core::model::{Description, OverWings};
 use flap_core::num::Backend;
 use flap_core::parameter::{Kind, Parameter, Preset, Range};
 use flap_core::simulate::{Column, Jobs, Point, PointRun, Row, Rows, Simulator, SolverSettings, Status};
@@ -154,20 +154,8 @@ impl Rows for Fake {
 }
 
 impl Simulator for Fake {
-    fn name(&self) -> &'static str {
-        "fake"
-    }
-
-    fn doc(&self) -> &'static str {
-        "No physics at all."
-    }
-
-    fn parameters(&self) -> &'static [Parameter<'static>] {
-        &PARAMETERS
-    }
-
-    fn presets(&self) -> &'static [Preset] {
-        &PRESETS
+    fn description(&self) -> Description<'_> {
+        Description::new("fake", "No physics at all.", &PARAMETERS, &PRESETS)
     }
 }
 

@@ -86,12 +86,12 @@ impl Ode<4> for Rotor {
 impl Model<4> for Rotor {
     type Signals = Signals;
 
-    const DESCRIPTION: Description = Description {
-        name: "rotor",
-        doc: "a Duffing oscillator in a plane",
-        parameters: Params::TABLE,
-        presets: &[Preset { name: "rotor", doc: "an example", values: || EXAMPLE.to_values() }],
-    };
+    const DESCRIPTION: Description<'static> = Description::new(
+        "rotor",
+        "a Duffing oscillator in a plane",
+        Params::TABLE,
+        &[Preset { name: "rotor", doc: "an example", values: || EXAMPLE.to_values() }],
+    );
     const STATES: [&'static str; 4] = ["x_1", "x_2", "v_1", "v_2"];
     const DERIVED: &'static [Derived<Self, Constants<f64>, Signals>] = &[];
 

@@ -257,7 +257,7 @@ pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> P
     dict.set_item("build", identity.build)?;
     dict.set_item("model", plan.simulator().name())?;
     dict.set_item("preset", plan.preset())?;
-    dict.set_item("pitch_sign", plan.robot().model().pitch_sign())?;
+    dict.set_item("pitch_sign", plan.robot().model().description().pitch_sign)?;
     dict.set_item("arithmetic", identity.arithmetic)?;
     dict.set_item("solver", solver)?;
     dict.set_item("grid", &plan.source().text)?;

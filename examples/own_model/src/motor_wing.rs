@@ -152,12 +152,12 @@ impl Ode<3> for MotorWing {
 impl Model<3> for MotorWing {
     type Signals = Signals;
 
-    const DESCRIPTION: Description = Description {
-        name: "motor-wing",
-        doc: "wing on the shaft of a motor, pitch by speed (Park and Abolfathi 2024)",
-        parameters: Params::TABLE,
-        presets: Params::PRESETS,
-    };
+    const DESCRIPTION: Description<'static> = Description::new(
+        "motor-wing",
+        "wing on the shaft of a motor, pitch by speed (Park and Abolfathi 2024)",
+        Params::TABLE,
+        Params::PRESETS,
+    );
     const STATES: [&'static str; 3] = ["stroke_rad", "stroke_rate_rad_s", "current_a"];
     const DERIVED: &'static [Derived<MotorWing, Constants<f64>, Signals>] = columns::DERIVED;
 

@@ -12,17 +12,39 @@ use crate::ode::step::Attempt;
 use crate::ode::{Ode, Start, input};
 use crate::parameter::{Invalid, Parameter, Preset};
 
-/// Name, description and parameters of a model.
+/// Name, description, parameters and properties of a model.
 #[derive(Clone, Copy, Debug)]
-pub struct Description {
+pub struct Description<'a> {
     /// Name in grid files, such as `direct-drive`.
     pub name: &'static str,
     /// Description in one line: the mechanism and the paper.
     pub doc: &'static str,
-    /// The parameter table.
-    pub parameters: &'static [Parameter<'static>],
+    /// The parameter table. A point is one `f64` per entry, see [`Parameter`].
+    pub parameters: &'a [Parameter<'a>],
     /// Published parameter sets.
     pub presets: &'static [Preset],
+    /// Sign of the pitch convention, for pictures of the wing.
+    ///
+    /// 1 if, at a positive pitch, the trailing edge lags a wing that moves to positive stroke; −1 if it leads.
+    pub pitch_sign: i8,
+    /// True if the model computes the [`load`](Model::load) of the wing. Rows then contain the load if
+    /// [`SolverSettings::loads`](crate::simulate::SolverSettings::loads) is set.
+    pub loads: bool,
+    /// Returns the parameters that depend on a user-defined wing, by name, in SI units. `None` if the model does not
+    /// support such a wing.
+    pub wing: Option<fn(&Wing) -> Vec<(&'static str, f64)>>,
+}
+
+impl Description<'static> {
+    /// Returns the description of a model with a pitch sign of 1, without loads and without user-defined wings.
+    pub const fn new(
+        name: &'static str,
+        doc: &'static str,
+        parameters: &'static [Parameter<'static>],
+        presets: &'static [Preset],
+    ) -> Description<'static> {
+        Description { name, doc, parameters, presets, pitch_sign: 1, loads: false, wing: None }
+    }
 }
 
 /// A column computed from the signals `S` of a periodic orbit of the model `M` with constants `C`.
@@ -104,8 +126,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// Measured signals, see [`signals!`](crate::signals).
     type Signals: SignalSet;
 
-    /// Name, description and parameters.
-    const DESCRIPTION: Description;
+    /// Name, description, parameters and properties.
+    const DESCRIPTION: Description<'static>;
     /// Names of the states with their units: columns of trajectories.
     const STATES: [&'static str; N];
     /// Columns computed from the signals.
@@ -113,12 +135,6 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If false, these derivatives may
     /// be NaN between the stages of a step.
     const SIGNALS_OF_SLOPES: bool = true;
-    /// Sign of the pitch convention, for pictures of the wing.
-    ///
-    /// 1 if, at a positive pitch, the trailing edge lags a wing that moves to positive stroke; −1 if it leads.
-    const PITCH_SIGN: i8 = 1;
-    /// True if the model computes the [`load`](Model::load) of the wing.
-    const LOADS: bool = false;
 
     /// Returns the variant of the model for a point: the choices on which its equations branch, such as the shape of
     /// the drive.
@@ -155,13 +171,6 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     fn symmetry(&self, c: &Self::Constants<f64>) -> Option<Symmetry<Self::Signals, N>> {
         let _ = c;
         None
-    }
-
-    /// Returns the parameters that depend on a user-defined wing, by name, in SI units; none if the model does not
-    /// support one.
-    fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
-        let _ = wing;
-        Vec::new()
     }
 
     /// Returns the drive of a point. The signals' harmonics refer to its phase.

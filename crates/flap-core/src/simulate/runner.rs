@@ -13,10 +13,8 @@ use super::sampler;
 use super::settings::SolverSettings;
 use super::simulator::{Experiments, Gradients, Motions, Rows, Simulator};
 use super::single::{self, PointRun, on_scalars};
-use crate::aero::Wing;
-use crate::model::{self, Model, Signal, SignalSet};
+use crate::model::{self, Description, Model, Signal, SignalSet};
 use crate::num::Backend;
-use crate::parameter::{Parameter, Preset};
 
 /// A model as an object-safe [`Simulator`]: everything that a sweep needs of a user-defined model.
 ///
@@ -89,12 +87,12 @@ use crate::parameter::{Parameter, Preset};
 /// impl Model<2> for Oscillator {
 ///     type Signals = Signals;
 ///
-///     const DESCRIPTION: Description = Description {
-///         name: "oscillator",
-///         doc: "a wing on a spring",
-///         parameters: Params::TABLE,
-///         presets: &[Preset { name: "example", doc: "", values: || EXAMPLE.to_values() }],
-///     };
+///     const DESCRIPTION: Description<'static> = Description::new(
+///         "oscillator",
+///         "a wing on a spring",
+///         Params::TABLE,
+///         &[Preset { name: "example", doc: "", values: || EXAMPLE.to_values() }],
+///     );
 ///     const STATES: [&'static str; 2] = ["stroke_rad", "stroke_rate_rad_s"];
 ///     const DERIVED: &'static [Derived<Self, Constants<f64>, Signals>] = &[];
 ///
@@ -197,32 +195,8 @@ impl<M: Model<N>, const N: usize> Rows for Runner<M, N> {
 }
 
 impl<M: Model<N>, const N: usize> Simulator for Runner<M, N> {
-    fn name(&self) -> &'static str {
-        M::DESCRIPTION.name
-    }
-
-    fn doc(&self) -> &'static str {
-        M::DESCRIPTION.doc
-    }
-
-    fn parameters(&self) -> &[Parameter<'_>] {
-        M::DESCRIPTION.parameters
-    }
-
-    fn presets(&self) -> &'static [Preset] {
-        M::DESCRIPTION.presets
-    }
-
-    fn pitch_sign(&self) -> i8 {
-        M::PITCH_SIGN
-    }
-
-    fn wing(&self, wing: &Wing) -> Vec<(&'static str, f64)> {
-        M::wing(wing)
-    }
-
-    fn has_loads(&self) -> bool {
-        M::LOADS
+    fn description(&self) -> Description<'_> {
+        M::DESCRIPTION
     }
 
     fn gradients(&self) -> Result<&dyn Gradients, Unfinished> {

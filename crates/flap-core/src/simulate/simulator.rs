@@ -14,9 +14,8 @@ use super::request::{
 use super::row::{Column, Row};
 use super::settings::SolverSettings;
 use super::single::PointRun;
-use crate::aero::Wing;
 use crate::drive::Samples;
-use crate::model::Signal;
+use crate::model::{Description, Signal};
 use crate::modes::Mode;
 use crate::num::Backend;
 use crate::ode::Interrupt;
@@ -83,34 +82,27 @@ impl Jobs for List<'_> {
 
 /// A model that computes rows from design points, with the information that sweeps need.
 pub trait Simulator: Rows {
+    /// Returns name, parameters and properties.
+    fn description(&self) -> Description<'_>;
+
     /// Returns the name in grid files, such as `direct-drive`.
-    fn name(&self) -> &'static str;
+    fn name(&self) -> &'static str {
+        self.description().name
+    }
 
     /// Returns the description in one line: the robot and the paper.
-    fn doc(&self) -> &'static str;
+    fn doc(&self) -> &'static str {
+        self.description().doc
+    }
 
     /// Returns the parameter table. A point is one `f64` per entry, see [`Parameter`].
-    fn parameters(&self) -> &[Parameter<'_>];
+    fn parameters(&self) -> &[Parameter<'_>] {
+        self.description().parameters
+    }
 
     /// Returns the published parameter sets.
-    fn presets(&self) -> &'static [Preset];
-
-    /// Returns 1 if, at a positive pitch, the trailing edge lags a wing that moves to positive stroke, and −1 if it
-    /// leads.
-    fn pitch_sign(&self) -> i8 {
-        1
-    }
-
-    /// Returns the parameters that depend on a user-defined wing, by name, in SI units; none if the model does not
-    /// support one.
-    fn wing(&self, wing: &Wing) -> Vec<(&'static str, f64)> {
-        let _ = wing;
-        Vec::new()
-    }
-
-    /// Returns true if rows contain the load of the air on the wing when [`SolverSettings::loads`] is set.
-    fn has_loads(&self) -> bool {
-        false
+    fn presets(&self) -> &'static [Preset] {
+        self.description().presets
     }
 
     /// Returns the trait object for derivatives of rows.

@@ -68,5 +68,5 @@ pub(super) fn check(model: &'static dyn Simulator, mounts: &[Mount]) -> Result<(
             return Err(VehicleError::SameName(mount.name.clone()));
         }
     }
-    if model.has_loads() { Ok(()) } else { Err(VehicleError::NoLoads(model.name())) }
+    if model.description().loads { Ok(()) } else { Err(VehicleError::NoLoads(model.name())) }
 }

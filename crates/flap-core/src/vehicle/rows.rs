@@ -4,8 +4,9 @@ use std::collections::{HashMap, VecDeque};
 
 use super::layout::Vehicle;
 use super::mount::MOST_WINGS;
+use crate::model::Description;
 use crate::num::Backend;
-use crate::parameter::{Invalid, Parameter, Preset};
+use crate::parameter::Invalid;
 use crate::simulate::{
     Column, Experiments, Gradients, Jobs, LaneUse, Motions, Point, PointRun, Row, Rows, Simulator,
     SolverSettings, Status, Unfinished,
@@ -39,22 +40,15 @@ impl Rows for Vehicle {
 }
 
 impl Simulator for Vehicle {
-    fn name(&self) -> &'static str {
-        self.model.name()
-    }
-
-    fn doc(&self) -> &'static str {
-        self.model.doc()
-    }
-
-    fn parameters(&self) -> &[Parameter<'_>] {
-        self.table.parameters()
-    }
-
-    /// Returns the presets of the model. The presets do not set the parameters of the vehicle, which have their
-    /// defaults.
-    fn presets(&self) -> &'static [Preset] {
-        self.model.presets()
+    /// The presets are the presets of the model. The presets do not set the parameters of the vehicle, which have
+    /// their defaults.
+    fn description(&self) -> Description<'_> {
+        Description {
+            parameters: self.table.parameters(),
+            loads: false,
+            wing: None,
+            ..self.model.description()
+        }
     }
 
     fn gradients(&self) -> Result<&dyn Gradients, Unfinished> {

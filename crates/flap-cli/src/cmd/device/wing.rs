@@ -29,12 +29,11 @@ pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {
         material: material(args)?,
         air_density: air.unwrap_or(AIR_DENSITY),
     };
-    let parameters = plan.simulator().wing(&wing);
-    if parameters.is_empty() {
-        let message =
-            format!("the model {} cannot compute its wing from an outline", plan.simulator().name());
+    let model = plan.simulator().description();
+    let Some(parameters) = model.wing.map(|parameters| parameters(&wing)) else {
+        let message = format!("the model {} cannot compute its wing from an outline", model.name);
         return Err(Failure::usage(message));
-    }
+    };
     check_ranges(&plan, &wing, &parameters)?;
     console::results(&grid::wing(&plan, &args.preset, &parameters))?;
     if wing.material.is_none() {

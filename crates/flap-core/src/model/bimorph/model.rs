@@ -286,19 +286,48 @@ impl Bimorph {
     }
 }
 
+/// Returns the parameters that depend on the wing.
+///
+/// The centres of pressure follow from blade elements. The presets' values contain factors fitted to one vehicle.
+fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
+    let length = wing.offset + wing.outline.length();
+    let (area, width) = (wing.area(), wing.outline.width());
+    let mut found = vec![
+        ("wing_length", length),
+        ("wing_area", area),
+        ("wing_radius_2", (wing.area_moment(2) / area).sqrt() / length),
+        ("wing_width", width),
+        ("wing_width_2", (wing.width_moment(2) / area).sqrt() / width),
+        ("added_inertia_stroke", wing.added_inertia()),
+        ("pressure_radius", wing.area_moment(3) / wing.area_moment(2)),
+        ("rotation_pressure_width", wing.width_moment(3) / wing.width_moment(2)),
+    ];
+    if let Some(masses) = wing.masses() {
+        found.extend([
+            ("wing_inertia_stroke", masses.rr),
+            ("wing_inertia_hinge", masses.zz),
+            ("wing_inertia_product", masses.rz),
+        ]);
+    }
+    found
+}
+
 impl Model<4> for Bimorph {
     type Signals = Signals;
 
-    const DESCRIPTION: Description = Description {
-        name: "bimorph",
-        doc: "bimorph actuator with a transmission, passive hinge, lumped quasi-steady aerodynamics (Jafferis et al. 2016)",
-        parameters: Params::TABLE,
-        presets: Params::PRESETS,
+    const DESCRIPTION: Description<'static> = Description {
+        loads: true,
+        wing: Some(wing),
+        ..Description::new(
+            "bimorph",
+            "bimorph actuator with a transmission, passive hinge, lumped quasi-steady aerodynamics (Jafferis et al. 2016)",
+            Params::TABLE,
+            Params::PRESETS,
+        )
     };
     const STATES: [&'static str; 4] = ["tip_m", "tip_rate_m_s", "pitch_rad", "pitch_rate_rad_s"];
     const SIGNALS_OF_SLOPES: bool = false;
     const DERIVED: &'static [Column] = DERIVED;
-    const LOADS: bool = true;
 
     fn variant(&self, values: &[f64]) -> Bimorph {
         let p = Params::from_values(values);
@@ -343,32 +372,6 @@ impl Model<4> for Bimorph {
             && self.centre_of_pressure != CentreOfPressure::Literal
             && self.drive.is_symmetric(&c.drive);
         is_symmetric.then_some(Symmetry { centre: [0.0; 4], second_half: Some(second_half) })
-    }
-
-    /// Returns the parameters that depend on the wing.
-    ///
-    /// The centres of pressure follow from blade elements. The presets' values contain factors fitted to one vehicle.
-    fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
-        let length = wing.offset + wing.outline.length();
-        let (area, width) = (wing.area(), wing.outline.width());
-        let mut found = vec![
-            ("wing_length", length),
-            ("wing_area", area),
-            ("wing_radius_2", (wing.area_moment(2) / area).sqrt() / length),
-            ("wing_width", width),
-            ("wing_width_2", (wing.width_moment(2) / area).sqrt() / width),
-            ("added_inertia_stroke", wing.added_inertia()),
-            ("pressure_radius", wing.area_moment(3) / wing.area_moment(2)),
-            ("rotation_pressure_width", wing.width_moment(3) / wing.width_moment(2)),
-        ];
-        if let Some(masses) = wing.masses() {
-            found.extend([
-                ("wing_inertia_stroke", masses.rr),
-                ("wing_inertia_hinge", masses.zz),
-                ("wing_inertia_product", masses.rz),
-            ]);
-        }
-        found
     }
 
     #[inline(always)]

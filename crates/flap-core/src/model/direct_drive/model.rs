@@ -201,18 +201,40 @@ impl DirectDrive {
     }
 }
 
+/// Returns the parameters that depend on the wing. In this model the hinge's axis is the leading edge.
+fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
+    let mut found = vec![("wing_length", wing.outline.length()), ("wing_offset", wing.offset)];
+    found.extend(chord_table(&wing.outline));
+    if let Some(masses) = wing.masses() {
+        let [chord, product, span] = masses.about_centre();
+        found.extend([
+            ("wing_mass", masses.mass),
+            ("mass_centre_span", masses.radius - wing.offset),
+            // Positive towards the leading edge.
+            ("mass_centre_chord", -masses.depth),
+            ("wing_inertia_span", span),
+            ("wing_inertia_chord", chord),
+            ("wing_inertia_product", -product),
+        ]);
+    }
+    found
+}
+
 impl Model<4> for DirectDrive {
     type Signals = Signals;
 
-    const DESCRIPTION: Description = Description {
-        name: "direct-drive",
-        doc: "unimorph attached directly to the wing, passive pitch, blade-element aerodynamics (Ozaki and Hamaguchi 2018)",
-        parameters: Params::TABLE,
-        presets: Params::PRESETS,
+    const DESCRIPTION: Description<'static> = Description {
+        loads: true,
+        wing: Some(wing),
+        ..Description::new(
+            "direct-drive",
+            "unimorph attached directly to the wing, passive pitch, blade-element aerodynamics (Ozaki and Hamaguchi 2018)",
+            Params::TABLE,
+            Params::PRESETS,
+        )
     };
     const STATES: [&'static str; 4] = states::NAMES;
     const DERIVED: &'static [Column] = DERIVED;
-    const LOADS: bool = true;
 
     fn variant(&self, values: &[f64]) -> DirectDrive {
         let p = Params::from_values(values);
@@ -249,25 +271,6 @@ impl Model<4> for DirectDrive {
         // A constant part of the voltage contributes power also if it does not move the stroke.
         let second_half = (c.drive.bias == 0.0).then_some(second_half as fn(&_) -> _);
         Some(Symmetry { centre: [stroke, 0.0, 0.0, 0.0], second_half })
-    }
-
-    /// Returns the parameters that depend on the wing. In this model the hinge's axis is the leading edge.
-    fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
-        let mut found = vec![("wing_length", wing.outline.length()), ("wing_offset", wing.offset)];
-        found.extend(chord_table(&wing.outline));
-        if let Some(masses) = wing.masses() {
-            let [chord, product, span] = masses.about_centre();
-            found.extend([
-                ("wing_mass", masses.mass),
-                ("mass_centre_span", masses.radius - wing.offset),
-                // Positive towards the leading edge.
-                ("mass_centre_chord", -masses.depth),
-                ("wing_inertia_span", span),
-                ("wing_inertia_chord", chord),
-                ("wing_inertia_product", -product),
-            ]);
-        }
-        found
     }
 
     #[inline(always)]

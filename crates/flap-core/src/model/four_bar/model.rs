@@ -206,19 +206,46 @@ impl FourBar {
     }
 }
 
+/// Returns the parameters that depend on the wing.
+///
+/// The model's axis is at the same fraction of the chord along the whole span: the fraction of the wing's area
+/// ahead of the axis.
+fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
+    let before = wing.outline.integral(|_, leading, _| leading);
+    let mut found = vec![("wing_offset", wing.offset), ("wing_length", wing.outline.length())];
+    found.extend(chord_table(&wing.outline));
+    found.push(("axis_position", before / wing.area()));
+    if let Some(masses) = wing.masses() {
+        let [chord, product, span] = masses.about_centre();
+        found.extend([
+            ("wing_mass", masses.mass),
+            ("mass_centre_radius", masses.radius),
+            ("mass_centre_depth", masses.depth),
+            ("wing_inertia_span", span),
+            ("wing_inertia_normal", span + chord),
+            ("wing_inertia_chord", chord),
+            ("wing_inertia_product", product),
+        ]);
+    }
+    found
+}
+
 impl Model<4> for FourBar {
     type Signals = Signals;
 
-    const DESCRIPTION: Description = Description {
-        name: "four-bar",
-        doc: "unimorph, slider-crank and four-bar, passive pitch, strip aerodynamics (Arabagi, Hines and Sitti 2013)",
-        parameters: Params::TABLE,
-        presets: Params::PRESETS,
+    const DESCRIPTION: Description<'static> = Description {
+        pitch_sign: -1,
+        loads: true,
+        wing: Some(wing),
+        ..Description::new(
+            "four-bar",
+            "unimorph, slider-crank and four-bar, passive pitch, strip aerodynamics (Arabagi, Hines and Sitti 2013)",
+            Params::TABLE,
+            Params::PRESETS,
+        )
     };
     const STATES: [&'static str; 4] = states::NAMES;
-    const PITCH_SIGN: i8 = -1;
     const DERIVED: &'static [Column] = DERIVED;
-    const LOADS: bool = true;
 
     fn variant(&self, values: &[f64]) -> FourBar {
         let p = Params::from_values(values);
@@ -240,30 +267,6 @@ impl Model<4> for FourBar {
         let constants =
             Constants { moving: Moving::of(&params, self.terms.body)?, ..Constants::derive(&params)? };
         Ok(states::start(&self.drive, &constants.drive, constants, [0.3, 0.5]))
-    }
-
-    /// Returns the parameters that depend on the wing.
-    ///
-    /// The model's axis is at the same fraction of the chord along the whole span: the fraction of the wing's area
-    /// ahead of the axis.
-    fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
-        let before = wing.outline.integral(|_, leading, _| leading);
-        let mut found = vec![("wing_offset", wing.offset), ("wing_length", wing.outline.length())];
-        found.extend(chord_table(&wing.outline));
-        found.push(("axis_position", before / wing.area()));
-        if let Some(masses) = wing.masses() {
-            let [chord, product, span] = masses.about_centre();
-            found.extend([
-                ("wing_mass", masses.mass),
-                ("mass_centre_radius", masses.radius),
-                ("mass_centre_depth", masses.depth),
-                ("wing_inertia_span", span),
-                ("wing_inertia_normal", span + chord),
-                ("wing_inertia_chord", chord),
-                ("wing_inertia_product", product),
-            ]);
-        }
-        found
     }
 
     #[inline(always)]
