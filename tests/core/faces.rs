@@ -3,8 +3,8 @@
 use flap_core::model::Description;
 use flap_core::num::Backend;
 use flap_core::simulate::{
-    ChirpRequest, Column, Jobs, Point, PointRun, RequestError, Row, Rows, Simulator, SolverSettings, Status,
-    TrajectoryRequest, Unfinished, never, preset, run_list,
+    ChirpRequest, Column, Jobs, Point, PointRun, Row, Rows, Simulator, SolverSettings, TrajectoryRequest,
+    Unfinished, never, preset, run_list,
 };
 
 /// A model whose rows are all invalid, in the reverse order of the points.
@@ -44,10 +44,10 @@ const SOLVER: SolverSettings = SolverSettings::DEFAULT;
 #[test]
 fn a_model_with_rows_alone_says_so() {
     let motions = Backwards.motions().err().unwrap();
-    assert_eq!(motions, Unfinished::NoMotions { model: "backwards" });
     assert_eq!(motions.to_string(), "the model backwards computes rows, but no single motions");
     let experiments = Backwards.experiments().err().unwrap();
-    assert_eq!(experiments, Unfinished::NoExperiments { model: "backwards" });
+    let text = "the model backwards supports no chirps, impulses, imposed motions or natural frequencies";
+    assert_eq!(experiments.to_string(), text);
 
     let set = Backend::best();
     let row = Backwards.run_point(&PointRun::new(set, &SOLVER, &[2.0]), None);
@@ -80,12 +80,12 @@ fn motions_that_are_not_followed_say_why() {
     let short = SolverSettings { max_steps: 3, ..SOLVER };
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 1, settled: false };
     let motion = model.motions().unwrap().trajectory(&PointRun::new(set, &short, &values), &request);
-    assert_eq!(motion, Err(Unfinished::StepLimit));
+    let text = "the motion needs more than max_steps steps in a drive period";
+    assert_eq!(motion.unwrap_err().to_string(), text);
 
     let hasty = SolverSettings { max_cycles: 2, ..SOLVER };
     let request = TrajectoryRequest { settled: true, ..request };
     let motion = model.motions().unwrap().trajectory(&PointRun::new(set, &hasty, &values), &request);
-    assert_eq!(motion, Err(Unfinished::NotPeriodic { status: Status::Unsettled, cycles: 2 }));
     let text = "the motion does not settle on an orbit of one drive period (status unsettled, 2 cycles); sample it from \
                 rest instead";
     assert_eq!(motion.unwrap_err().to_string(), text);
@@ -94,7 +94,6 @@ fn motions_that_are_not_followed_say_why() {
     for rate in [1.0, -0.5, -200.0] {
         let request = ChirpRequest { from: 2.0, to: 1.0, rate, samples_per_cycle: 0 };
         let response = model.experiments().unwrap().chirp(&PointRun::new(set, &SOLVER, &values), &request);
-        assert_eq!(response, Err(RequestError::Chirp { from: 2.0, to: 1.0, rate }.into()));
         assert_eq!(
             response.unwrap_err().to_string(),
             format!(
@@ -107,7 +106,6 @@ fn motions_that_are_not_followed_say_why() {
     let begin = [0.0; 3];
     let period = model.motions().unwrap().period(&PointRun::new(set, &SOLVER, &values), &begin);
     let error = period.unwrap_err();
-    assert_eq!(error, RequestError::Begin { begin: begin.to_vec(), states: 4 }.into());
     assert_eq!(
         error.to_string(),
         "the motion cannot begin at [0.0, 0.0, 0.0]: a state consists of 4 finite numbers"
@@ -136,6 +134,6 @@ fn a_motion_goes_on_from_the_state_in_which_another_ends() {
             assert!((a - b).abs() <= 1e-4 * b.abs().max(1e-3), "{name}: {a} {b}");
         }
         let error = motions.trajectory_from(&run, Some(&begin[1..]), &half).unwrap_err();
-        assert!(matches!(error, Unfinished::Request(RequestError::Begin { states: 4, .. })));
+        assert!(error.to_string().contains("a state consists of 4 finite numbers"), "{error}");
     }
 }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::FRAC_PI_4;
 
-use flap_core::aero::{ChordTable, Material, Outline, OutlineError, STATIONS, Station, Tabulated, Wing};
+use flap_core::aero::{ChordTable, Material, Outline, STATIONS, Station, Tabulated, Wing};
 use flap_core::model::Model;
 use flap_core::model::bimorph::Bimorph;
 use flap_core::model::direct_drive::DirectDrive;
@@ -61,12 +61,15 @@ fn a_weighed_wing_keeps_its_shares() {
 #[test]
 fn other_stations_are_refused() {
     let station = |span, leading, trailing| Station { span, leading, trailing };
-    let refused = |stations: &[Station], error| assert_eq!(Outline::new(stations.to_vec()), Err(error));
-    refused(&[station(0.0, 0.0, 1.0)], OutlineError::TooFew(1));
-    refused(&[station(1.0, 0.0, 1.0), station(2.0, 0.0, 1.0)], OutlineError::NotAtRoot(1.0));
-    refused(&[station(0.0, 0.0, 1.0), station(0.0, 0.0, 1.0)], OutlineError::NotOutwards(2));
-    refused(&[station(0.0, 0.0, 1.0), station(1.0, 0.0, -1.0)], OutlineError::NegativeChord(2));
-    refused(&[station(0.0, 0.0, 0.0), station(1.0, 0.0, 0.0)], OutlineError::NoArea);
+    let refused = |stations: &[Station], reason: &str| {
+        let error = Outline::new(stations.to_vec()).unwrap_err().to_string();
+        assert!(error.contains(reason), "{error}");
+    };
+    refused(&[station(0.0, 0.0, 1.0)], "at least two stations, not 1");
+    refused(&[station(1.0, 0.0, 1.0), station(2.0, 0.0, 1.0)], "at 1 m along the span");
+    refused(&[station(0.0, 0.0, 1.0), station(0.0, 0.0, 1.0)], "station 2 is not farther out");
+    refused(&[station(0.0, 0.0, 1.0), station(1.0, 0.0, -1.0)], "negative at station 2");
+    refused(&[station(0.0, 0.0, 0.0), station(1.0, 0.0, 0.0)], "no area");
 }
 
 #[test]

@@ -3,15 +3,15 @@
 use flap_core::num::Backend;
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{PointRun, Simulator, SolverSettings, Status, Unfinished, preset};
+use flap_sweep::resonance::Range;
 use flap_sweep::resonance::driven::{self, DrivenPeaks};
-use flap_sweep::resonance::{Range, SearchError};
 
 /// The peaks of a design without values that depend on the drive frequency.
 fn search(
     model: &'static dyn Simulator,
     run: &PointRun<'_>,
     range: &Range,
-) -> Result<DrivenPeaks, SearchError> {
+) -> Result<DrivenPeaks, Unfinished> {
     driven::search(model, run, range, |_| None)
 }
 
@@ -154,5 +154,5 @@ fn an_interrupted_search_says_so() {
     };
     let values = values("ozaki2018-small", &[]);
     let found = search(model, &PointRun::new(Backend::best(), &endless, &values).until(&|| true), &range);
-    assert_eq!(found.err(), Some(SearchError::Unfinished(Unfinished::Interrupted)));
+    assert_eq!(found.err(), Some(Unfinished::Interrupted));
 }

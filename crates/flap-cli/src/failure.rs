@@ -22,7 +22,6 @@ use flap_sweep::input::InputError;
 use flap_sweep::notation::text::shortened;
 use flap_sweep::notation::{UserError, nearest};
 use flap_sweep::plan::ChangeError;
-use flap_sweep::resonance::SearchError;
 use flap_sweep::run::RunError;
 
 use crate::console;
@@ -234,7 +233,7 @@ macro_rules! usage {
     };
 }
 
-usage!(ChangeError, FormatError, Invalid, RecordError, SearchError, Unfinished);
+usage!(ChangeError, FormatError, Invalid, RecordError, Unfinished);
 
 impl From<ReadError> for Failure {
     fn from(error: ReadError) -> Failure {

@@ -3,7 +3,6 @@
 use std::fmt::Display;
 use std::io;
 
-use flap_core::simulate::Unfinished;
 use flap_sweep::files::integrity::OpenError;
 use flap_sweep::files::job::JobError;
 use flap_sweep::files::output::CreateError;
@@ -83,8 +82,8 @@ pub(crate) fn with_help(message: impl Display, help: Option<impl Display>) -> Py
 }
 
 /// Returns a `ValueError` for a motion that could not be computed to its end.
-pub(crate) fn unfinished(unfinished: &Unfinished) -> PyErr {
-    PyValueError::new_err(unfinished.to_string())
+pub(crate) fn unfinished(reason: &impl Display) -> PyErr {
+    PyValueError::new_err(reason.to_string())
 }
 
 /// Returns the exception for a run of points that ended early.

@@ -1,6 +1,7 @@
 //! Experiments on single points: chirps, impulses, and forces along a given motion.
 
 use flap_core::drive::Repeat;
+use flap_core::parameter::Invalid;
 use flap_core::simulate::{ChirpRequest, Experiments, ImposedMotion, ImpulseRequest};
 use flap_experiments::free::{first, intervals, stroke_rate};
 use flap_sweep::files::record;
@@ -82,7 +83,7 @@ pub(crate) fn impulse<'py>(
     let experiments = experiments(&chosen)?;
     let modes = experiments.modes(&chosen.values).map_err(|reason| error::unfinished(&reason))?;
     let amplitude = convert::impulse("amplitude", amplitude)?;
-    let invalid = |reason| error::unfinished(&flap_core::simulate::Unfinished::Invalid(reason));
+    let invalid = |reason: Invalid| error::unfinished(&reason);
     let stroke_rate = stroke_rate(&modes, amplitude).map_err(invalid)?;
     let frequency = first(&modes).map_err(invalid)?.frequency;
     let duration = match duration {

@@ -3,11 +3,10 @@
 use flap_core::modes::Mode;
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
-use flap_core::simulate::PointRun;
+use flap_core::simulate::{PointRun, Unfinished};
 use flap_experiments::free::{self, FreeRequest};
 use flap_sweep::resonance::driven;
-use flap_sweep::resonance::{DRIVE_FREQUENCY, Range, SearchError};
-use pyo3::exceptions::PyValueError;
+use flap_sweep::resonance::{DRIVE_FREQUENCY, Range};
 use pyo3::prelude::*;
 use pyo3::types::{IntoPyDict, PyDict};
 
@@ -98,7 +97,7 @@ pub(crate) fn resonance<'py>(
             Parameter::index(chosen.plan.parameters(), DRIVE_FREQUENCY).into_iter().collect();
         Ok((free, driven::search(simulator, &run, &range, |values| chosen.plan.update(values, &fixed))?))
     })?;
-    let (free, driven) = found.map_err(|reason: SearchError| PyValueError::new_err(reason.to_string()))?;
+    let (free, driven) = found.map_err(|reason: Unfinished| error::unfinished(&reason))?;
 
     let fit = free.fit.map(|fit| Sine {
         frequency_hz: fit.frequency,

@@ -17,4 +17,4 @@ pub use oblique::{Flow, ObliqueForces, ObliqueStrip, oblique_forces};
 pub(crate) use strips::{Cut, check_chords, cut, sum};
 pub use strips::{StripSums, Strips};
 pub use unsteady::{AddedMass, ChordIntegral, Circulation, NormalLoad, RotationalForce};
-pub use wing::{Masses, Material, Outline, OutlineError, Station, Wing};
+pub use wing::{Masses, Material, Outline, Station, Wing};

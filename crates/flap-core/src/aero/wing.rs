@@ -1,5 +1,6 @@
 //! A user-defined wing: integrals over its outline and its mass.
 
+use crate::parameter::Invalid;
 use crate::quadrature::gauss_legendre;
 
 /// One station of the outline of a wing; all lengths in metres.
@@ -11,26 +12,6 @@ pub struct Station {
     pub leading: f64,
     /// Distance of the trailing edge behind the hinge's axis.
     pub trailing: f64,
-}
-
-/// Error in the stations of an outline.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum OutlineError {
-    /// The outline has fewer than two stations.
-    #[error("an outline has at least two stations, not {0}")]
-    TooFew(usize),
-    /// The first station is not at the root.
-    #[error("the first station is at {0} m along the span: an outline begins at 0, the wing's root")]
-    NotAtRoot(f64),
-    /// The stations are not in order of increasing distance from the root.
-    #[error("station {0} is not farther out than the station before")]
-    NotOutwards(usize),
-    /// The chord is negative.
-    #[error("the chord is negative at station {0}: its trailing edge is ahead of its leading edge")]
-    NegativeChord(usize),
-    /// The chord is zero everywhere.
-    #[error("the wing has no area")]
-    NoArea,
 }
 
 /// The outline of a wing, with straight edges between stations.
@@ -93,23 +74,35 @@ impl Outline {
     /// Returns the outline through `stations`, in order of increasing distance from the root.
     ///
     /// # Errors
-    /// [`OutlineError`] if the stations are out of order or enclose no area.
-    pub fn new(stations: Vec<Station>) -> Result<Outline, OutlineError> {
-        let [first, .., _] = stations[..] else { return Err(OutlineError::TooFew(stations.len())) };
+    /// An error if the stations are out of order or enclose no area.
+    pub fn new(stations: Vec<Station>) -> Result<Outline, Invalid> {
+        let [first, .., _] = stations[..] else {
+            let message = format!("an outline has at least two stations, not {}", stations.len());
+            return Err(Invalid::new(message));
+        };
         if first.span != 0.0 {
-            return Err(OutlineError::NotAtRoot(first.span));
+            return Err(Invalid::new(format!(
+                "the first station is at {} m along the span: an outline begins at 0, the wing's root",
+                first.span
+            )));
         }
         if let Some(i) = (1..stations.len()).find(|&i| stations[i].span <= stations[i - 1].span) {
-            return Err(OutlineError::NotOutwards(i + 1));
+            return Err(Invalid::new(format!(
+                "station {} is not farther out than the station before",
+                i + 1
+            )));
         }
         if let Some(i) = stations.iter().position(|station| station.leading + station.trailing < 0.0) {
-            return Err(OutlineError::NegativeChord(i + 1));
+            return Err(Invalid::new(format!(
+                "the chord is negative at station {}: its trailing edge is ahead of its leading edge",
+                i + 1
+            )));
         }
         let outline = Outline { stations };
         if outline.integral(|_, leading, trailing| leading + trailing) > 0.0 {
             Ok(outline)
         } else {
-            Err(OutlineError::NoArea)
+            Err(Invalid::new("the wing has no area"))
         }
     }
 

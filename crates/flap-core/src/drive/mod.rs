@@ -10,5 +10,5 @@ mod variant;
 
 pub use constants::{DriveConstants, Wave};
 pub use parameters::{Shape, StrokeMode, StrokeParameters, WaveformParameters};
-pub use samples::{Repeat, Samples, SamplesError};
+pub use samples::{Repeat, Samples};
 pub use variant::{Drive, Waveform};

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use nalgebra::Complex;
 
 use crate::num::Real;
+use crate::parameter::Invalid;
 
 /// Smallest number of samples that a record may have.
 const FEWEST: usize = 4;
@@ -20,41 +21,6 @@ pub enum Repeat {
     Periodic,
     /// The record ends.
     Once,
-}
-
-/// Error in the samples of a record.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SamplesError {
-    /// The record has fewer than four samples.
-    #[error("{count} samples are too few: a record has at least {FEWEST}")]
-    TooFew {
-        /// Number of samples.
-        count: usize,
-    },
-    /// A time or a value is infinite or not a number.
-    #[error("sample {sample} is not a number")]
-    NotANumber {
-        /// Position of the sample in the record, counted from 1.
-        sample: usize,
-    },
-    /// The times of the samples do not increase.
-    #[error("times do not increase: sample {sample} is at {time} s, the sample before at {before} s")]
-    TimesNotIncreasing {
-        /// Position of the later sample in the record, counted from 1.
-        sample: usize,
-        /// Time of the later sample (s).
-        time: f64,
-        /// Time of the previous sample (s).
-        before: f64,
-    },
-    /// The first and the last value of a periodic record differ.
-    #[error("the first and last value of a periodic record must be equal, not {first} and {last}")]
-    NotClosed {
-        /// First value.
-        first: f64,
-        /// Last value.
-        last: f64,
-    },
 }
 
 /// A record of samples as a smooth function of the phase, from 0 (first sample) to 1 (last sample).
@@ -90,23 +56,29 @@ impl PartialEq for Samples {
 impl Samples {
     /// Returns the record of samples at increasing `times` (s).
     ///
+    /// If the first and the last value of a periodic record differ by at most a thousandth of its range, the difference
+    /// is removed.
+    ///
     /// # Errors
-    /// - `TooFew` if there are fewer than four samples.
-    /// - `NotANumber` if a time or value is not finite.
-    /// - `TimesNotIncreasing` if times do not increase.
-    /// - `NotClosed` if first and last value of a periodic record differ by more than a thousandth of its range. A
-    ///   smaller difference between the first and the last value is removed.
-    pub fn new(times: &[f64], values: &[f64], repeat: Repeat) -> Result<Samples, SamplesError> {
+    /// An error in these cases:
+    ///
+    /// - There are fewer than four samples.
+    /// - A time or value is not finite.
+    /// - Times do not increase.
+    /// - The first and the last value of a periodic record differ by more than a thousandth of its range.
+    pub fn new(times: &[f64], values: &[f64], repeat: Repeat) -> Result<Samples, Invalid> {
         let count = times.len().min(values.len());
         if count < FEWEST {
-            return Err(SamplesError::TooFew { count });
+            return Err(Invalid::new(format!("{count} samples are too few: a record has at least {FEWEST}")));
         }
         if let Some(i) = (0..count).find(|&i| !(times[i].is_finite() && values[i].is_finite())) {
-            return Err(SamplesError::NotANumber { sample: i + 1 });
+            return Err(Invalid::new(format!("sample {} is not a number", i + 1)));
         }
         if let Some(i) = (1..count).find(|&i| times[i] <= times[i - 1]) {
-            let (time, before) = (times[i], times[i - 1]);
-            return Err(SamplesError::TimesNotIncreasing { sample: i + 1, time, before });
+            let (sample, time, before) = (i + 1, times[i], times[i - 1]);
+            return Err(Invalid::new(format!(
+                "times do not increase: sample {sample} is at {time} s, the sample before at {before} s"
+            )));
         }
         let duration = times[count - 1] - times[0];
         let phases: Vec<f64> = times[..count].iter().map(|time| (time - times[0]) / duration).collect();
@@ -249,13 +221,15 @@ fn range(values: &[f64]) -> [f64; 2] {
     values.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &v| [low.min(v), high.max(v)])
 }
 
-fn check_closed(values: &[f64]) -> Result<(), SamplesError> {
+fn check_closed(values: &[f64]) -> Result<(), Invalid> {
     let [low, high] = range(values);
     let (first, last) = (values[0], values[values.len() - 1]);
     if (last - first).abs() <= 1e-3 * (high - low) {
         return Ok(());
     }
-    Err(SamplesError::NotClosed { first, last })
+    Err(Invalid::new(format!(
+        "the first and last value of a periodic record must be equal, not {first} and {last}"
+    )))
 }
 
 /// Returns the tridiagonal equations for the second derivatives of a spline at the inner samples.

@@ -1,9 +1,9 @@
-//! Error type for impossible parameters.
+//! Error type for impossible parameters, requests and motions.
 
 use super::table::Range;
 use crate::num::PerLane;
 
-/// Impossible parameters, or an impossible request. Contains the reason.
+/// Impossible parameters, an impossible request, or a motion that cannot be computed. Contains the reason.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{0}")]
 pub struct Invalid(String);

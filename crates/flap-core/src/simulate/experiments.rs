@@ -6,9 +6,7 @@
 
 use core::ops::ControlFlow;
 
-use super::request::{
-    ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, RequestError, Trajectory, Unfinished,
-};
+use super::request::{ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Trajectory, Unfinished};
 use super::runner::Runner;
 use super::sampler::{Sampler, columns as trajectory_columns, sampled, shown};
 use super::simulator::{Experiments, Simulator};
@@ -23,6 +21,7 @@ use crate::num::{PerLane, Scalar};
 use crate::ode::Start;
 use crate::ode::ensemble::Observer;
 use crate::ode::solve::solve_until;
+use crate::parameter::Invalid;
 
 impl<M: ExperimentModel<N>, const N: usize> Experiments for Runner<M, N> {
     fn chirp(&self, run: &PointRun<'_>, request: &ChirpRequest) -> Result<ChirpResponse, Unfinished> {
@@ -35,11 +34,13 @@ impl<M: ExperimentModel<N>, const N: usize> Experiments for Runner<M, N> {
 
     /// Evaluates the forces at equally spaced times, from the first sample of the motion to the last, without
     /// integration.
-    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished> {
+    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
         let ImposedMotion { stroke, pitch, samples } = motion;
         let (duration, other) = (stroke.duration(), pitch.duration());
         if (duration - other).abs() > 1e-9 * duration {
-            return Err(RequestError::Durations { stroke: duration, pitch: other }.into());
+            return Err(Invalid::new(format!(
+                "stroke and pitch must have the same duration, not {duration} s and {other} s"
+            )));
         }
         // Stroke and pitch are given, so the response of the wings to the motion of the body has no effect.
         let values = &BodyParameters::passive(M::DESCRIPTION.parameters, values);
@@ -56,7 +57,7 @@ impl<M: ExperimentModel<N>, const N: usize> Experiments for Runner<M, N> {
         Ok(Trajectory { columns: trajectory_columns::<M, N>(), rows: rows.collect() })
     }
 
-    fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Unfinished> {
+    fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Invalid> {
         let model = self.model.variant(values);
         Ok(M::modes(&model.start(values)?.constants))
     }
@@ -80,7 +81,12 @@ fn chirp<M: ExperimentModel<N>, R: Scalar, const N: usize>(
     let ChirpRequest { from, to, rate, samples_per_cycle } = *request;
     // A cycle that begins with the frequency f ends with √(f² + 2r), see below.
     if !(from > 0.0 && to > 0.0 && (to - from) * rate > 0.0 && to * to + 2.0 * rate > 0.0) {
-        return Err(RequestError::Chirp { from, to, rate }.into());
+        return Err(Invalid::new(format!(
+            "a chirp from {from} Hz cannot reach {to} Hz at {rate} Hz/s: frequencies must be more than zero, and the rate \
+             must have the sign of the change and be more than {} Hz/s",
+            -0.5 * to * to
+        ))
+        .into());
     }
     let model = model.variant(values);
     let start = start_at(&model, solver, values, None)?;
@@ -188,13 +194,17 @@ fn free_response<M: ExperimentModel<N>, R: Scalar, const N: usize>(
 }
 
 /// Checks that the impulse is not zero, and that the duration and the number of intervals are more than zero.
-fn refuse_nonsense(request: &ImpulseRequest) -> Result<(), RequestError> {
+fn refuse_nonsense(request: &ImpulseRequest) -> Result<(), Invalid> {
     let ImpulseRequest { stroke_rate, duration, intervals } = *request;
     if !(stroke_rate.is_finite() && stroke_rate != 0.0) {
-        return Err(RequestError::StrokeRate(stroke_rate));
+        return Err(Invalid::new(format!(
+            "the stroke rate of an impulse must be finite and not zero, not {stroke_rate} rad/s"
+        )));
     }
     if !(duration.is_finite() && duration > 0.0) || intervals == 0 {
-        return Err(RequestError::Sampling { duration, intervals });
+        return Err(Invalid::new(format!(
+            "the duration and the number of intervals must be more than zero, not {duration} s and {intervals} intervals"
+        )));
     }
     Ok(())
 }

@@ -27,9 +27,10 @@ mod start;
 pub use gradient::{Change, Gradient, NoSlope};
 pub use jobs::{Jobs, LaneUse, Point};
 pub use moving_wing::MovingWing;
+pub(crate) use request::cannot_begin;
 pub use request::{
-    ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, RequestError, Trajectory,
-    TrajectoryRequest, Unfinished,
+    ChirpRequest, ChirpResponse, ImposedMotion, ImpulseRequest, Period, Trajectory, TrajectoryRequest,
+    Unfinished,
 };
 pub use row::{Column, Row, Status};
 pub use runner::Runner;

@@ -1,9 +1,9 @@
 //! A wing whose shoulder moves in any way: its equations and its load at an instant.
 
-use super::request::Unfinished;
 use crate::body::BodyMotion;
 use crate::model::{Instant, Model};
 use crate::ode::Start;
+use crate::parameter::Invalid;
 
 /// The equations of a wing's motion with given values of its parameters, for any motion of its shoulder.
 ///
@@ -37,7 +37,7 @@ struct Wing<M: Model<N>, const N: usize> {
 pub(super) fn moving_wing<M: Model<N>, const N: usize>(
     model: &M,
     values: &[f64],
-) -> Result<Box<dyn MovingWing>, Unfinished> {
+) -> Result<Box<dyn MovingWing>, Invalid> {
     let model = model.variant(values);
     let start = model.start(values)?;
     Ok(Box::new(Wing { model, start }))

@@ -1,6 +1,5 @@
 //! Requests for single motions, their results, and the reasons for a motion that is incomplete.
 
-use super::row::Status;
 use crate::drive::Samples;
 use crate::ode::{Ending, Interrupt};
 use crate::parameter::Invalid;
@@ -89,48 +88,26 @@ pub struct Period {
 /// Reason for an incomplete motion.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unfinished {
-    /// The combination of parameter values is impossible.
+    /// The motion or the request is impossible, or the motion fails.
     #[error(transparent)]
     Invalid(#[from] Invalid),
-    /// The request is impossible.
-    #[error(transparent)]
-    Request(#[from] RequestError),
-    /// A settled motion was requested, but the motion does not settle on an orbit of one drive period.
-    #[error(
-        "the motion does not settle on an orbit of one drive period (status {}, {cycles} cycles); sample it from rest \
-         instead",
-        status.name()
-    )]
-    NotPeriodic {
-        /// Status of the point's row.
-        status: Status,
-        /// Number of integrated drive periods.
-        cycles: u32,
-    },
-    /// The model computes rows alone.
-    #[error("the model {model} computes rows, but no single motions")]
-    NoMotions {
-        /// Name of the model.
-        model: &'static str,
-    },
-    /// The model supports no chirps, impulses, imposed motions and natural frequencies.
-    #[error("the model {model} supports no chirps, impulses, imposed motions or natural frequencies")]
-    NoExperiments {
-        /// Name of the model.
-        model: &'static str,
-    },
-    /// The state became infinite or NaN.
-    #[error("the motion diverges")]
-    Diverged,
-    /// A drive period takes more than `max_steps` steps, or steps too small to advance time.
-    #[error("the motion needs more than max_steps steps in a drive period")]
-    StepLimit,
     /// The caller interrupted the run.
     #[error("interrupted")]
     Interrupted,
 }
 
 impl Unfinished {
+    /// Returns the error of a model that computes rows alone.
+    pub(crate) fn no_motions(model: &str) -> Unfinished {
+        Invalid::new(format!("the model {model} computes rows, but no single motions")).into()
+    }
+
+    /// Returns the error of a model without experiments.
+    pub(crate) fn no_experiments(model: &str) -> Unfinished {
+        let what = "chirps, impulses, imposed motions or natural frequencies";
+        Invalid::new(format!("the model {model} supports no {what}")).into()
+    }
+
     /// Returns `Ok` if a run has ended as intended.
     pub(crate) fn check(ending: Ending, interrupted: Interrupt<'_>) -> Result<(), Unfinished> {
         if interrupted() {
@@ -138,55 +115,15 @@ impl Unfinished {
         }
         match ending {
             Ending::Stopped => Ok(()),
-            Ending::Diverged => Err(Unfinished::Diverged),
-            Ending::StepLimit => Err(Unfinished::StepLimit),
+            Ending::Diverged => Err(Invalid::new("the motion diverges").into()),
+            Ending::StepLimit => {
+                Err(Invalid::new("the motion needs more than max_steps steps in a drive period").into())
+            }
         }
     }
 }
 
-/// An impossible request for a motion.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum RequestError {
-    /// A frequency that is not more than zero, or falls to zero within a cycle; or a rate with the wrong sign.
-    #[error(
-        "a chirp from {from} Hz cannot reach {to} Hz at {rate} Hz/s: frequencies must be more than zero, and the rate \
-         must have the sign of the change and be more than {} Hz/s", -0.5 * to * to
-    )]
-    Chirp {
-        /// Frequency at the beginning (Hz).
-        from: f64,
-        /// Frequency at the end (Hz).
-        to: f64,
-        /// Rate of change of the frequency (Hz/s).
-        rate: f64,
-    },
-    /// A stroke rate of an impulse that is zero or not finite.
-    #[error("the stroke rate of an impulse must be finite and not zero, not {0} rad/s")]
-    StrokeRate(f64),
-    /// A duration or number of intervals that is not more than zero.
-    #[error(
-        "the duration and the number of intervals must be more than zero, not {duration} s and {intervals} intervals"
-    )]
-    Sampling {
-        /// Duration of the motion (s).
-        duration: f64,
-        /// Number of intervals between samples.
-        intervals: u32,
-    },
-    /// Stroke and pitch of an imposed motion with different durations.
-    #[error("stroke and pitch must have the same duration, not {stroke} s and {pitch} s")]
-    Durations {
-        /// Duration of the stroke's record (s).
-        stroke: f64,
-        /// Duration of the pitch's record (s).
-        pitch: f64,
-    },
-    /// An initial state that does not contain one finite number for each of the model's states.
-    #[error("the motion cannot begin at {begin:?}: a state consists of {states} finite numbers")]
-    Begin {
-        /// Numbers of the initial state.
-        begin: Vec<f64>,
-        /// Number of the model's states.
-        states: usize,
-    },
+/// Returns the error of an initial state that is not one finite number for each state of the model.
+pub(crate) fn cannot_begin(state: &[f64], states: usize) -> Invalid {
+    Invalid::new(format!("the motion cannot begin at {state:?}: a state consists of {states} finite numbers"))
 }

@@ -15,6 +15,7 @@ use super::simulator::{Experiments, Gradients, Motions, Rows, Simulator};
 use super::single::{self, PointRun, on_scalars};
 use crate::model::{self, Description, Model, Signal, SignalSet};
 use crate::num::Backend;
+use crate::parameter::Invalid;
 
 /// A model as an object-safe [`Simulator`]: everything that a sweep needs of a user-defined model.
 ///
@@ -208,7 +209,7 @@ impl<M: Model<N>, const N: usize> Simulator for Runner<M, N> {
     }
 
     fn experiments(&self) -> Result<&dyn Experiments, Unfinished> {
-        (self.experiments)(self).ok_or(Unfinished::NoExperiments { model: self.name() })
+        (self.experiments)(self).ok_or_else(|| Unfinished::no_experiments(self.name()))
     }
 }
 
@@ -249,7 +250,7 @@ impl<M: Model<N>, const N: usize> Motions for Runner<M, N> {
         on_scalars!(run, R => single::trajectory::<M, R, N>(&self.model, run, begin, request))
     }
 
-    fn moving_wing(&self, values: &[f64]) -> Result<Box<dyn MovingWing>, Unfinished> {
+    fn moving_wing(&self, values: &[f64]) -> Result<Box<dyn MovingWing>, Invalid> {
         moving_wing(&self.model, values)
     }
 }

@@ -19,7 +19,7 @@ use crate::model::{Description, Signal};
 use crate::modes::Mode;
 use crate::num::Backend;
 use crate::ode::Interrupt;
-use crate::parameter::{Parameter, Preset};
+use crate::parameter::{Invalid, Parameter, Preset};
 
 /// Source of rows: it computes one row per design point.
 pub trait Rows: Sync {
@@ -108,25 +108,25 @@ pub trait Simulator: Rows {
     /// Returns the trait object for derivatives of rows.
     ///
     /// # Errors
-    /// [`Unfinished::NoMotions`] if the model computes rows alone.
+    /// An error if the model computes rows alone.
     fn gradients(&self) -> Result<&dyn Gradients, Unfinished> {
-        Err(Unfinished::NoMotions { model: self.name() })
+        Err(Unfinished::no_motions(self.name()))
     }
 
     /// Returns the trait object for motions of single points.
     ///
     /// # Errors
-    /// [`Unfinished::NoMotions`] if the model computes rows alone.
+    /// An error if the model computes rows alone.
     fn motions(&self) -> Result<&dyn Motions, Unfinished> {
-        Err(Unfinished::NoMotions { model: self.name() })
+        Err(Unfinished::no_motions(self.name()))
     }
 
     /// Returns the trait object for experiments on single points.
     ///
     /// # Errors
-    /// [`Unfinished::NoExperiments`] if the model does not support experiments.
+    /// An error if the model does not support experiments.
     fn experiments(&self) -> Result<&dyn Experiments, Unfinished> {
-        Err(Unfinished::NoExperiments { model: self.name() })
+        Err(Unfinished::no_experiments(self.name()))
     }
 }
 
@@ -152,9 +152,7 @@ pub trait Gradients: Sync {
 /// Motions are computed on scalars. Each method returns these errors:
 ///
 /// - [`Unfinished::Interrupted`] if the run is interrupted
-/// - [`Unfinished::Invalid`] if the combination of values is impossible
-/// - [`Unfinished::Request`] if the request is impossible
-/// - [`Unfinished::Diverged`] or [`Unfinished::StepLimit`] if the motion fails
+/// - [`Unfinished::Invalid`] if the combination of values or the request is impossible, or if the motion fails
 pub trait Motions: Gradients {
     /// Returns the names of the columns of a trajectory: time, states, and signals.
     fn trajectory_columns(&self) -> Vec<String>;
@@ -171,8 +169,8 @@ pub trait Motions: Gradients {
     /// Returns samples of the motion of one point, settled or from rest.
     ///
     /// # Errors
-    /// See [`Motions`]. Also [`Unfinished::NotPeriodic`] if a settled motion is requested, and the motion does not
-    /// settle on an orbit of one drive period.
+    /// See [`Motions`]. Also an error if a settled motion is requested, and the motion does not settle on an orbit of one
+    /// drive period.
     fn trajectory(&self, run: &PointRun<'_>, request: &TrajectoryRequest) -> Result<Trajectory, Unfinished> {
         self.trajectory_from(run, None, request)
     }
@@ -183,7 +181,7 @@ pub trait Motions: Gradients {
     /// If a settled motion is requested, it is the motion that this one approaches.
     ///
     /// # Errors
-    /// See [`Motions::trajectory`]. Also [`Unfinished::Request`] if `begin` is not one finite number for each state.
+    /// See [`Motions::trajectory`]. Also an error if `begin` is not one finite number for each state.
     fn trajectory_from(
         &self,
         run: &PointRun<'_>,
@@ -197,8 +195,8 @@ pub trait Motions: Gradients {
     /// effect.
     ///
     /// # Errors
-    /// [`Unfinished::Invalid`] if the combination of values is impossible.
-    fn moving_wing(&self, values: &[f64]) -> Result<Box<dyn MovingWing>, Unfinished>;
+    /// An error if the combination of values is impossible.
+    fn moving_wing(&self, values: &[f64]) -> Result<Box<dyn MovingWing>, Invalid>;
 }
 
 /// Experiments on single points: another drive or motion replaces the point's own.
@@ -220,16 +218,15 @@ pub trait Experiments: Sync {
     /// Returns states and signals along an imposed motion. Signals of the actuator are NaN.
     ///
     /// # Errors
-    /// [`Unfinished::Invalid`] if the combination of values is impossible, [`Unfinished::Request`] if stroke and pitch
-    /// have different durations.
-    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Unfinished>;
+    /// An error if the combination of values is impossible, or if stroke and pitch have different durations.
+    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Invalid>;
 
     /// Returns the small undamped motions of one point. The first one is the motion that an impulse on the stroke
     /// excites.
     ///
     /// # Errors
-    /// [`Unfinished::Invalid`] if the combination of values is impossible.
-    fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Unfinished>;
+    /// An error if the combination of values is impossible.
+    fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Invalid>;
 
     /// Returns the signals whose frequencies describe a free motion. The first one is the signal that an impulse
     /// excites.

@@ -14,6 +14,7 @@ use crate::measure::multipliers::spectral_radius;
 use crate::model::Model;
 use crate::num::{Backend, Scalar};
 use crate::ode::{Interrupt, Start, never};
+use crate::parameter::Invalid;
 
 /// Run of a single point on scalars.
 #[derive(Clone, Copy)]
@@ -93,7 +94,13 @@ pub(super) fn trajectory<M: Model<N>, R: Scalar, const N: usize>(
         });
         let SearchResult { row, orbit } = settled.ok_or(Unfinished::Interrupted)?;
         let Some(orbit) = orbit.filter(|_| row.status == Status::Periodic) else {
-            return Err(Unfinished::NotPeriodic { status: row.status, cycles: row.cycles });
+            return Err(Invalid::new(format!(
+                "the motion does not settle on an orbit of one drive period (status {}, {} cycles); sample it from rest \
+                 instead",
+                row.status.name(),
+                row.cycles
+            ))
+            .into());
         };
         start = orbit.with(start.constants);
     }

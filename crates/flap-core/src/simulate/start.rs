@@ -1,10 +1,11 @@
 //! Initial values of runs: at rest or at a given state.
 
-use super::request::{RequestError, Unfinished};
+use super::request::cannot_begin;
 use super::settings::SolverSettings;
 use crate::body::BodyParameters;
 use crate::model::Model;
 use crate::ode::Start;
+use crate::parameter::Invalid;
 
 /// Returns the start of a point, at rest or at `state`.
 ///
@@ -14,7 +15,7 @@ pub(super) fn start_at<M: Model<N>, const N: usize>(
     solver: &SolverSettings,
     values: &[f64],
     state: Option<&[f64]>,
-) -> Result<Start<M::Constants<f64>, N>, Unfinished> {
+) -> Result<Start<M::Constants<f64>, N>, Invalid> {
     if !solver.loads {
         BodyParameters::check_single(M::DESCRIPTION.parameters, values)?;
     }
@@ -22,7 +23,7 @@ pub(super) fn start_at<M: Model<N>, const N: usize>(
     if let Some(state) = state {
         let is_finite = state.iter().all(|y| y.is_finite());
         let y = state.try_into().ok().filter(|_| is_finite);
-        start.y = y.ok_or_else(|| RequestError::Begin { begin: state.to_vec(), states: N })?;
+        start.y = y.ok_or_else(|| cannot_begin(state, N))?;
     }
     Ok(start)
 }

@@ -2,7 +2,7 @@
 
 use super::layout::Vehicle;
 use crate::simulate::{
-    Change, Gradient, Gradients, NoSlope, PointRun, RequestError, SolverSettings, Unfinished,
+    Change, Gradient, Gradients, NoSlope, PointRun, SolverSettings, Unfinished, cannot_begin,
 };
 
 impl Gradients for Vehicle {
@@ -21,7 +21,7 @@ impl Gradients for Vehicle {
     ) -> Result<Gradient, Unfinished> {
         let states = self.states.len() / self.mounts.len();
         if state.len() != self.states.len() {
-            return Err(RequestError::Begin { begin: state.to_vec(), states: self.states.len() }.into());
+            return Err(cannot_begin(state, self.states.len()).into());
         }
         let solver = SolverSettings { loads: true, ..*run.solver };
         let mut wings = Vec::new();

@@ -26,8 +26,7 @@ impl Vehicle {
     /// If the model has no parameters for the motion of the body, the motion has no effect.
     ///
     /// # Errors
-    /// [`Unfinished::Invalid`] if the combination of values is impossible, and [`Unfinished::NoMotions`] if the model
-    /// computes only rows.
+    /// An error if the combination of values is impossible, or if the model computes only rows.
     pub fn moving_wings(&self, values: &[f64]) -> Result<MovingWings, Unfinished> {
         // Any motion selects the equations of moving wings.
         let moving = self.table.in_motion(values);
@@ -36,10 +35,7 @@ impl Vehicle {
         for (i, mount) in self.mounts.iter().enumerate() {
             let of_wing = |invalid: Invalid| Invalid::new(format!("wing {}: {invalid}", mount.name));
             let own = self.table.of_wing(&moving, i).map_err(of_wing)?;
-            let wing = motions.moving_wing(&own).map_err(|error| match error {
-                Unfinished::Invalid(invalid) => Unfinished::Invalid(of_wing(invalid)),
-                error => error,
-            })?;
+            let wing = motions.moving_wing(&own).map_err(of_wing)?;
             wings.push(Mounted { wing, place: self.table.place(values, i), mirrored: mount.mirrored });
         }
         Ok(MovingWings { wings, about: self.table.about(values) })

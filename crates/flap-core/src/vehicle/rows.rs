@@ -56,11 +56,11 @@ impl Simulator for Vehicle {
     }
 
     fn motions(&self) -> Result<&dyn Motions, Unfinished> {
-        Err(Unfinished::NoMotions { model: "of a vehicle" })
+        Err(Unfinished::no_motions("of a vehicle"))
     }
 
     fn experiments(&self) -> Result<&dyn Experiments, Unfinished> {
-        Err(Unfinished::NoExperiments { model: "of a vehicle" })
+        Err(Unfinished::no_experiments("of a vehicle"))
     }
 }
 

@@ -4,11 +4,11 @@
 use std::f64::consts::PI;
 
 use flap_core::parameter::Invalid;
-use flap_core::simulate::{Point, PointRun, Row, Simulator, Status, run_list};
+use flap_core::simulate::{Point, PointRun, Row, Simulator, Status, Unfinished, run_list};
 
 use super::search::{Found, Peaks, Search, Seen};
 use super::sequence::PointSequence as _;
-use super::target::{Objective, Range, SearchError, Target, has_prescribed_stroke};
+use super::target::{Objective, Range, Target, has_prescribed_stroke, prescribed};
 use crate::notation::UserError;
 
 /// Largest number of reported peaks.
@@ -59,24 +59,24 @@ pub struct Gap {
 /// depend on the drive frequency, and returns the reason if a point with the new values cannot be run.
 ///
 /// # Errors
-/// - [`SearchError::Unfinished`] if the search is interrupted, or the combination of values is impossible.
-/// - Another [`SearchError`] if the search is impossible.
+/// - [`Unfinished::Interrupted`] if the search is interrupted.
+/// - [`Unfinished::Invalid`] if the combination of values or the search is impossible.
 pub fn search(
     model: &'static dyn Simulator,
     run: &PointRun<'_>,
     range: &Range,
     update: impl Fn(&mut [f64]) -> Option<Invalid>,
-) -> Result<DrivenPeaks, SearchError> {
+) -> Result<DrivenPeaks, Unfinished> {
     let PointRun { backend, solver, values, interrupted } = *run;
     let tolerance = range.tolerance;
     if tolerance.is_nan() || tolerance <= 0.0 {
         let message = format!("the tolerance must be more than zero, not {tolerance} Hz");
-        return Err(SearchError::Impossible(message));
+        return Err(Invalid::new(message).into());
     }
     if has_prescribed_stroke(model.parameters(), values) {
-        return Err(SearchError::prescribed("set stroke_mode to free"));
+        return Err(prescribed("set stroke_mode to free").into());
     }
-    let lacks = |what: &str| SearchError::Impossible(format!("the model {what}"));
+    let lacks = |what: &str| Invalid::new(format!("the model {what}"));
     let target = Target::new(model, Range { of: Objective::Stroke, ..*range })
         .ok_or_else(|| lacks("has no drive frequency or measures no stroke"))?;
     let pitch = model.columns().iter().position(|column| column.name == "pitch_amplitude_deg");

@@ -7,10 +7,11 @@
 //! motion that the search found at the same frequency, the design has more than one orbit. For a design with more than
 //! one orbit, the peaks are located again with all probes from rest.
 
-use flap_core::simulate::{Point, Row, Status};
+use flap_core::parameter::Invalid;
+use flap_core::simulate::{Point, Row, Status, Unfinished};
 
 use super::sequence::PointSequence;
-use super::target::{SearchError, Target};
+use super::target::Target;
 
 /// Ratio of neighbouring frequencies of the grid, minus one. A peak of quality Q has a relative width of 1/Q.
 const SPACING: f64 = 0.02;
@@ -52,7 +53,7 @@ pub(super) struct Search<'a> {
     point: Point,
     peaks: Peaks,
     /// Lowest and highest frequency (Hz), or the reason why a search is impossible.
-    ends: Result<[f64; 2], SearchError>,
+    ends: Result<[f64; 2], Unfinished>,
     stage: Stage,
     /// All points that were run.
     seen: Vec<Seen>,
@@ -144,14 +145,13 @@ impl<'a> Search<'a> {
     /// Returns the result of the search and all points that were run.
     ///
     /// # Errors
-    /// - [`SearchError::Impossible`] if the design is impossible, or has no range of frequencies to search.
-    /// - [`SearchError::Unfinished`] if the model has no natural frequencies for a default range.
-    pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), SearchError> {
+    /// An error if the design is impossible, or has no range of frequencies to search.
+    pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), Unfinished> {
         let ends = self.ends?;
         let peaks = match self.stage {
             Stage::Done { tops } if !tops.is_empty() => tops.into_iter().zip(self.rows).collect(),
             _ => match self.rows.into_iter().find_map(|row| row.reason) {
-                Some(reason) => return Err(SearchError::Impossible(reason)),
+                Some(reason) => return Err(Invalid::new(reason).into()),
                 None => Vec::new(),
             },
         };

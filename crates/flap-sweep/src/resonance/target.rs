@@ -1,4 +1,4 @@
-//! Target of a search for a resonance: range of the drive frequency, quantity to maximise, and errors.
+//! Target of a search for a resonance: range of the drive frequency, and quantity to maximise.
 
 use flap_core::parameter::{Invalid, Parameter};
 use flap_core::simulate::{Simulator, Unfinished};
@@ -80,10 +80,10 @@ impl Target {
     }
 
     /// Returns the lowest and highest frequency (Hz) of the search for a design.
-    pub(super) fn ends(&self, values: &[f64]) -> Result<[f64; 2], SearchError> {
+    pub(super) fn ends(&self, values: &[f64]) -> Result<[f64; 2], Unfinished> {
         let Range { of, from, to, .. } = self.range;
         if of == Objective::Stroke && has_prescribed_stroke(self.model.parameters(), values) {
-            return Err(SearchError::prescribed("so it has no resonance"));
+            return Err(prescribed("so it has no resonance").into());
         }
         let [from, to] = match (from, to) {
             (Some(from), Some(to)) => [from, to],
@@ -103,7 +103,7 @@ impl Target {
             return Ok([from, to]);
         }
         let rule = "the first must be more than zero and less than the last";
-        Err(SearchError::Impossible(format!("there are no drive frequencies from {from} to {to} Hz: {rule}")))
+        Err(Invalid::new(format!("there are no drive frequencies from {from} to {to} Hz: {rule}")).into())
     }
 }
 
@@ -122,27 +122,7 @@ pub(super) fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) ->
     })
 }
 
-/// Reason for an impossible or failed search for resonances.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SearchError {
-    /// The search is impossible, or no motion of the design is periodic. The error contains the reason.
-    #[error("{0}")]
-    Impossible(String),
-    /// The natural frequencies cannot be computed, or the search was interrupted.
-    #[error(transparent)]
-    Unfinished(#[from] Unfinished),
-}
-
-impl SearchError {
-    /// Returns the error of a prescribed stroke. `end` is the last part of the error message.
-    pub(super) fn prescribed(end: &str) -> SearchError {
-        let begin = "stroke_mode is \"prescribed\": the stroke is the same at every frequency";
-        SearchError::Impossible(format!("{begin}, {end}"))
-    }
-}
-
-impl From<Invalid> for SearchError {
-    fn from(invalid: Invalid) -> SearchError {
-        SearchError::Unfinished(invalid.into())
-    }
+/// Returns the error of a prescribed stroke. `end` is the last part of the error message.
+pub(super) fn prescribed(end: &str) -> Invalid {
+    Invalid::new(format!("stroke_mode is \"prescribed\": the stroke is the same at every frequency, {end}"))
 }

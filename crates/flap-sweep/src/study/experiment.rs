@@ -65,7 +65,7 @@ pub fn forces(
     values: &[f64],
     motion: &ImposedMotion,
 ) -> Result<Trajectory, UserError> {
-    let Trajectory { columns, rows } = model.imposed(values, motion)?;
+    let Trajectory { columns, rows } = model.imposed(values, motion).map_err(Unfinished::from)?;
     let known: Vec<usize> =
         (0..columns.len()).filter(|&column| rows.iter().any(|row| !row[column].is_nan())).collect();
     for row in &rows {

@@ -11,7 +11,7 @@
 use core::f64::consts::TAU;
 
 use flap_core::ode::tableau::{A, B, C, E, STAGES};
-use flap_core::parameter::{Kind, Parameter};
+use flap_core::parameter::{Invalid, Kind, Parameter};
 use flap_core::simulate::{Simulator as _, SolverSettings, Unfinished};
 use flap_core::vehicle::{MassProperties, MovingWings};
 use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3, Vector6};
@@ -251,7 +251,8 @@ impl<'a> Coupled<'a> {
         let mut coupled =
             Coupled { vehicle_run, values, inputs, equations, y: Vec::new(), integrator, heading: 0.0 };
         coupled.begin(&settled, &[0.0; FED_BACK]);
-        let vibration = coupled.vibration().map_err(|_| ControlError::from(Unfinished::Diverged))?;
+        let diverges = |_| ControlError::from(Unfinished::from(Invalid::new("the motion diverges")));
+        let vibration = coupled.vibration().map_err(diverges)?;
         coupled.begin(&settled, &core::array::from_fn(|i| disturbance[i] - vibration[i]));
         coupled.heading = disturbance[8];
         Ok(coupled)
