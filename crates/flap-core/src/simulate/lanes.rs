@@ -9,15 +9,16 @@
 //!
 //! Single points run in the same way, on one scalar lane.
 
+use core::cell::{Cell, RefCell};
 use core::pin::Pin;
-use core::task::{Context, Poll, Waker};
+use core::task::{Context, Waker};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
 use super::jobs::{Jobs, LaneUse, Point};
 use super::periods::{Exchange, Kind, PeriodEnd};
 use super::row::Row;
-use super::search::{SearchResult, settle};
+use super::search::settle;
 use super::settings::SolverSettings;
 use super::start::start_at;
 use crate::measure::cycle::{SignalObserver, SumsOf};
@@ -53,24 +54,61 @@ impl<M: Model<N>, const N: usize> Kernel for LanesKernel<'_, M, N> {
     #[inline(always)]
     fn run<I: Simd>(self, simd: I) {
         let LanesKernel { model, solver, jobs } = self;
+        let jobs = RefCell::new(jobs);
+        let interrupted = || jobs.borrow().interrupted();
         let mut waiting: Vec<(M, Point)> = Vec::new();
         let mut lane_use = LaneUse::default();
         // One driver per variant, until no points are left.
-        while !jobs.interrupted() {
+        while !interrupted() {
             if waiting.is_empty() {
-                let Some(point) = jobs.next(true) else { break };
+                let Some(point) = jobs.borrow_mut().next(true) else { break };
                 waiting.push((model.variant(&point.values), point));
             }
             let model = &model.variant(&waiting[0].1.values);
-            let mut points = Points { model, solver, jobs: &mut *jobs, waiting };
-            let mut driver = Driver::<_, _, _, _, N>::new(simd, model, solver, &mut points);
+            let mut next = |idle| loop {
+                let Point { index, values, begin } = next_point(model, &jobs, &mut waiting, idle)?;
+                match start_at(model, solver, &values, begin.as_deref()) {
+                    Ok(start) => {
+                        let (jobs, nearby) = (&jobs, begin.is_some());
+                        let search = |exchange| async move {
+                            let settled = settle(model, solver, start, nearby, exchange).await;
+                            jobs.borrow_mut().done(index, settled.row);
+                        };
+                        return Some(Box::new(Running::new(start, search)));
+                    }
+                    Err(error) => jobs.borrow_mut().done(index, Row::invalid(error)),
+                }
+            };
+            let mut driver = Driver::<_, _, N>::new(simd, model, solver, &mut next, &interrupted);
             driver.lane_use = lane_use;
             driver.run();
             lane_use = driver.lane_use;
-            waiting = points.waiting;
         }
-        jobs.occupied(&lane_use);
+        jobs.into_inner().occupied(&lane_use);
     }
+}
+
+/// Returns the next point of the variant `model`. Points of other variants are set aside, up to a limit: `waiting`
+/// contains these points, each with its variant.
+fn next_point<M: Model<N>, const N: usize>(
+    model: &M,
+    jobs: &RefCell<&mut dyn Jobs>,
+    waiting: &mut Vec<(M, Point)>,
+    idle: bool,
+) -> Option<Point> {
+    if let Some(ours) = waiting.iter().position(|(variant, _)| variant == model) {
+        return Some(waiting.remove(ours).1);
+    }
+    while waiting.len() < ASIDE {
+        // While points are set aside, the call does not wait for more.
+        let point = jobs.borrow_mut().next(idle && waiting.is_empty())?;
+        let variant = model.variant(&point.values);
+        if variant == *model {
+            return Some(point);
+        }
+        waiting.push((variant, point));
+    }
+    None
 }
 
 /// Returns the output of one search on scalars from `start`; `None` if it is interrupted.
@@ -86,144 +124,64 @@ where
     R: Scalar,
     F: Future<Output = T>,
 {
-    let mut single =
-        Single { run: Some(Box::new(Running::new(0, *start, search))), output: None, interrupted };
-    Driver::<_, _, _, _, N>::new(OneLane::<R>::new(), model, solver, &mut single).run();
-    single.output
+    let output = Cell::new(None);
+    let search = |exchange| {
+        let (search, output) = (search(exchange), &output);
+        async move { output.set(Some(search.await)) }
+    };
+    let mut run = Some(Box::new(Running::new(*start, search)));
+    Driver::<_, _, N>::new(OneLane::<R>::new(), model, solver, &mut |_| run.take(), interrupted).run();
+    output.take()
 }
 
-/// A search in progress with its output `T`.
-struct Running<'a, T, M: Model<N>, const N: usize> {
-    index: u64,
+/// A search in progress. The search reports its own result.
+struct Running<'a, M: Model<N>, const N: usize> {
     start: Start<M::Constants<f64>, N>,
     exchange: Rc<Exchange<SumsOf<M, N>, N>>,
-    search: Pin<Box<dyn Future<Output = T> + 'a>>,
+    search: Pin<Box<dyn Future<Output = ()> + 'a>>,
 }
 
 /// Boxed, because a run moves between lanes and lists at the end of each period.
-type Run<'a, T, M, const N: usize> = Box<Running<'a, T, M, N>>;
+type Run<'a, M, const N: usize> = Box<Running<'a, M, N>>;
 
-impl<'a, T, M: Model<N>, const N: usize> Running<'a, T, M, N> {
-    fn new<F: Future<Output = T> + 'a>(
-        index: u64,
+impl<'a, M: Model<N>, const N: usize> Running<'a, M, N> {
+    fn new<F: Future<Output = ()> + 'a>(
         start: Start<M::Constants<f64>, N>,
         search: impl FnOnce(Rc<Exchange<SumsOf<M, N>, N>>) -> F,
     ) -> Self {
         let exchange = Rc::new(Exchange::new());
-        Running { index, start, search: Box::pin(search(exchange.clone())), exchange }
+        Running { start, search: Box::pin(search(exchange.clone())), exchange }
     }
 }
 
-/// Source of searches and receiver of their outputs.
-trait Source<'a, T, M: Model<N>, const N: usize> {
-    /// Returns the next search, or `None` if there is none at present. If `idle` is true, the call may wait, and
-    /// `None` is the end.
-    fn next(&mut self, idle: bool) -> Option<Run<'a, T, M, N>>;
-
-    /// Receives the output of the search with this index.
-    fn done(&mut self, index: u64, output: T);
-
-    /// Returns true to end at once.
-    fn interrupted(&self) -> bool;
-}
-
-/// The points of one variant of a model.
-struct Points<'a, 'j, M> {
-    model: &'a M,
-    solver: &'a SolverSettings,
-    jobs: &'j mut dyn Jobs,
-    /// Points taken from `jobs` that have not run yet, each with its variant.
-    waiting: Vec<(M, Point)>,
-}
-
-impl<M> Points<'_, '_, M> {
-    /// Returns the next point of this variant. Points of other variants are set aside, up to a limit.
-    fn next_point<const N: usize>(&mut self, idle: bool) -> Option<Point>
-    where
-        M: Model<N>,
-    {
-        if let Some(ours) = self.waiting.iter().position(|(variant, _)| variant == self.model) {
-            return Some(self.waiting.remove(ours).1);
-        }
-        while self.waiting.len() < ASIDE {
-            // While points are set aside, the call does not wait for more.
-            let point = self.jobs.next(idle && self.waiting.is_empty())?;
-            let variant = self.model.variant(&point.values);
-            if variant == *self.model {
-                return Some(point);
-            }
-            self.waiting.push((variant, point));
-        }
-        None
-    }
-}
-
-impl<'a, M: Model<N>, const N: usize> Source<'a, SearchResult<N>, M, N> for Points<'a, '_, M> {
-    fn next(&mut self, idle: bool) -> Option<Run<'a, SearchResult<N>, M, N>> {
-        loop {
-            let Point { index, values, begin } = self.next_point(idle)?;
-            match start_at(self.model, self.solver, &values, begin.as_deref()) {
-                Ok(start) => {
-                    let (model, solver) = (self.model, self.solver);
-                    let nearby = begin.is_some();
-                    let search = |exchange| settle(model, solver, start, nearby, exchange);
-                    return Some(Box::new(Running::new(index, start, search)));
-                }
-                Err(error) => self.jobs.done(index, Row::invalid(error)),
-            }
-        }
-    }
-
-    fn done(&mut self, index: u64, settled: SearchResult<N>) {
-        self.jobs.done(index, settled.row);
-    }
-
-    fn interrupted(&self) -> bool {
-        self.jobs.interrupted()
-    }
-}
-
-/// One search and its output.
-struct Single<'a, 'i, T, M: Model<N>, const N: usize> {
-    run: Option<Run<'a, T, M, N>>,
-    output: Option<T>,
-    interrupted: Interrupt<'i>,
-}
-
-impl<'a, T, M: Model<N>, const N: usize> Source<'a, T, M, N> for Single<'a, '_, T, M, N> {
-    fn next(&mut self, _idle: bool) -> Option<Run<'a, T, M, N>> {
-        self.run.take()
-    }
-
-    fn done(&mut self, _index: u64, output: T) {
-        self.output = Some(output);
-    }
-
-    fn interrupted(&self) -> bool {
-        (self.interrupted)()
-    }
-}
+/// Source of searches.
+///
+/// Returns the next search, or `None` if there is none at present. If the argument `idle` is true, the call may wait,
+/// and `None` is the end.
+type Source<'s, 'a, M, const N: usize> = &'s mut dyn FnMut(bool) -> Option<Run<'a, M, N>>;
 
 /// Searches, and the ensembles that integrate their periods.
-struct Driver<'a, 's, I, M: Model<N>, Q, T, const N: usize> {
+struct Driver<'a, 's, I, M: Model<N>, const N: usize> {
     simd: I,
     model: &'a M,
     solver: &'a SolverSettings,
-    source: &'s mut Q,
+    source: Source<'s, 'a, M, N>,
+    interrupted: Interrupt<'s>,
     /// Searches that wait for a period, by its kind. The first to wait is the first to continue.
-    waiting: [VecDeque<Run<'a, T, M, N>>; 4],
+    waiting: [VecDeque<Run<'a, M, N>>; 4],
     lane_use: LaneUse,
 }
 
-impl<'a, 's, I, M, Q, T, const N: usize> Driver<'a, 's, I, M, Q, T, N>
-where
-    I: Simd,
-    M: Model<N>,
-    Q: Source<'a, T, M, N>,
-{
-    fn new(simd: I, model: &'a M, solver: &'a SolverSettings, source: &'s mut Q) -> Self {
+impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
+    fn new(
+        simd: I,
+        model: &'a M,
+        solver: &'a SolverSettings,
+        source: Source<'s, 'a, M, N>,
+        interrupted: Interrupt<'s>,
+    ) -> Self {
         let waiting = core::array::from_fn(|_| VecDeque::with_capacity(2 * BATCH));
-        Driver { simd, model, solver, source, waiting, lane_use: LaneUse::default() }
+        Driver { simd, model, solver, source, interrupted, waiting, lane_use: LaneUse::default() }
     }
 
     /// Runs all searches of the source.
@@ -232,7 +190,7 @@ where
             self.integrate_batch(Kind::States);
             self.integrate_others();
             // Searches that fail at the very end may return to marching.
-            if self.waiting[Kind::States as usize].is_empty() || self.source.interrupted() {
+            if self.waiting[Kind::States as usize].is_empty() || (self.interrupted)() {
                 return;
             }
         }
@@ -241,7 +199,7 @@ where
     /// Integrates periods of the kinds that need other quantities than the states, until a search marches again or
     /// none waits.
     fn integrate_others(&mut self) {
-        while self.waiting[Kind::States as usize].is_empty() && !self.source.interrupted() {
+        while self.waiting[Kind::States as usize].is_empty() && !(self.interrupted)() {
             let Some(other) = self.other_that_waits(1) else { return };
             self.integrate_batch(other);
         }
@@ -292,7 +250,7 @@ where
         &'d mut self,
         kind: Kind,
         store: Store<V, SumsOf<M, N>, N>,
-    ) -> Periods<'a, 's, 'd, I, M, Q, T, V, N> {
+    ) -> Periods<'a, 's, 'd, I, M, V, N> {
         Periods { driver: self, kind, store, runs: [const { None }; MOST_LANES] }
     }
 
@@ -300,11 +258,10 @@ where
     /// or has ended.
     fn poll_search(
         &mut self,
-        mut run: Run<'a, T, M, N>,
+        mut run: Run<'a, M, N>,
         kind: Kind,
-    ) -> Option<(Run<'a, T, M, N>, Option<Restart<N>>)> {
-        if let Poll::Ready(output) = run.search.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
-            self.source.done(run.index, output);
+    ) -> Option<(Run<'a, M, N>, Option<Restart<N>>)> {
+        if run.search.as_mut().poll(&mut Context::from_waker(Waker::noop())).is_ready() {
             return None;
         }
         let request = run.exchange.request()?;
@@ -322,7 +279,7 @@ where
     }
 
     /// Returns the next search that waits for a period of this kind, or that begins with one.
-    fn next(&mut self, kind: Kind, idle: bool) -> Option<(Run<'a, T, M, N>, Restart<N>)> {
+    fn next(&mut self, kind: Kind, idle: bool) -> Option<(Run<'a, M, N>, Restart<N>)> {
         loop {
             if let Some(run) = self.waiting[kind as usize].pop_front() {
                 let begin = run.exchange.request()?.begin?;
@@ -331,10 +288,10 @@ where
             if kind != Kind::States {
                 return None;
             }
-            let run = if let Some(run) = self.source.next(false) {
+            let run = if let Some(run) = (self.source)(false) {
                 run
             } else {
-                // The source may wait for outputs of searches that wait here. With few of them, most lanes would be
+                // The source may wait for results of searches that wait here. With few of them, most lanes would be
                 // empty.
                 if idle {
                     self.integrate_others();
@@ -347,7 +304,7 @@ where
                 if !idle {
                     return None;
                 }
-                self.source.next(true)?
+                (self.source)(true)?
             };
             if let Some((run, Some(begin))) = self.poll_search(run, kind) {
                 return Some((run, begin));
@@ -360,20 +317,19 @@ where
 type Store<V, T, const N: usize> = fn(&V, &mut PeriodEnd<T, N>, &Exchange<T, N>);
 
 /// The periods of one kind, as the queue of an ensemble whose totals over a period have the type `V`.
-struct Periods<'a, 's, 'd, I, M: Model<N>, Q, T, V, const N: usize> {
-    driver: &'d mut Driver<'a, 's, I, M, Q, T, N>,
+struct Periods<'a, 's, 'd, I, M: Model<N>, V, const N: usize> {
+    driver: &'d mut Driver<'a, 's, I, M, N>,
     kind: Kind,
     store: Store<V, SumsOf<M, N>, N>,
     /// Search of the period in each lane.
-    runs: [Option<Run<'a, T, M, N>>; MOST_LANES],
+    runs: [Option<Run<'a, M, N>>; MOST_LANES],
 }
 
-impl<'a, I, M, V, Q, T, const N: usize> Queue<M, V, N> for Periods<'a, '_, '_, I, M, Q, T, V::Totals<f64>, N>
+impl<I, M, V, const N: usize> Queue<M, V, N> for Periods<'_, '_, '_, I, M, V::Totals<f64>, N>
 where
     I: Simd,
     M: Model<N>,
     V: Observer<M, N>,
-    Q: Source<'a, T, M, N>,
 {
     fn next(&mut self, lane: usize, idle: bool) -> Option<Start<M::Constants<f64>, N>> {
         let (run, begin) = self.driver.next(self.kind, idle)?;
@@ -396,6 +352,6 @@ where
     }
 
     fn interrupted(&self) -> bool {
-        self.driver.source.interrupted()
+        (self.driver.interrupted)()
     }
 }
