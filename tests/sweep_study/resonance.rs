@@ -1,7 +1,7 @@
 //! Each design at its own resonance.
 
 use flap_core::num::Backend;
-use flap_core::simulate::{PointRun, Row, SolverSettings, Status};
+use flap_core::simulate::{Interrupt, PointRun, Row, SolverSettings, Status, never};
 use flap_sweep::plan::Plan;
 
 use crate::support::{bits, column, mistakes, parameter, plan, rows};
@@ -121,6 +121,17 @@ fn a_row_is_that_of_a_sweep_at_its_frequency() {
         assert_eq!(row.floquet_max.to_bits(), there.floquet_max.to_bits());
         assert!(row.rhs_evals > there.rhs_evals, "all of the search counts");
     }
+}
+
+/// An interruption ends the points of a search, not only the caller's wait for the search.
+#[test]
+fn an_interrupted_search_runs_no_points() {
+    let plan = grid("jafferis2016", "stroke", [60, 200], "drive_voltage_pp = [\"160 V\"]");
+    let values = plan.point(0).values;
+    let run = PointRun::new(Backend::best(), plan.solver(), &values);
+    let evaluations =
+        |interrupted: Interrupt<'_>| plan.rows().run_point(&run.until(interrupted), None).rhs_evals;
+    assert!(100 * evaluations(&|| true) < evaluations(&never));
 }
 
 #[test]

@@ -89,7 +89,7 @@ impl Rows for AtResonance {
     fn run_point(&self, run: &PointRun<'_>, _begin: Option<&[f64]>) -> Row {
         let design = Point::at_rest(0, run.values.to_vec());
         let mut search = Search::new(&self.target, design, Peaks::HIGHEST);
-        sequence::run_one(self.target.model, run.backend, run.solver, &mut search);
+        sequence::run_one(self.target.model, run, &mut search);
         search.into_row().1
     }
 }

@@ -41,20 +41,16 @@ pub fn run_all(rows: &dyn Rows, backend: Backend, solver: &SolverSettings, sourc
     rows.run(backend, solver, &mut Interleaved { source, open: Vec::new() });
 }
 
-/// Runs one sequence on scalars, with the same bits as [`run_all`].
-pub fn run_one(
-    rows: &dyn Rows,
-    backend: Backend,
-    solver: &SolverSettings,
-    sequence: &mut impl PointSequence,
-) {
+/// Runs one sequence on scalars, with the same bits as [`run_all`]. The points have the settings of `run`, but their own
+/// values.
+pub fn run_one(rows: &dyn Rows, run: &PointRun<'_>, sequence: &mut impl PointSequence) {
     loop {
         let probes = sequence.probes();
         if probes.is_empty() {
             return;
         }
         let row = |probe: &Point| {
-            rows.run_point(&PointRun::new(backend, solver, &probe.values), probe.begin.as_deref())
+            rows.run_point(&PointRun { values: &probe.values, ..*run }, probe.begin.as_deref())
         };
         let found = probes.iter().map(row).collect();
         sequence.take(found);

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use flap_core::num::Backend;
-use flap_core::simulate::{Interrupt, Point, Row, Status, never};
+use flap_core::simulate::{Interrupt, Point, PointRun, Row, Status, never};
 
 use super::continuation;
 use super::curve::{Curve, Step};
@@ -52,7 +52,8 @@ impl<'a> Responses<'a> {
     pub fn curve(self, design: Point) -> Curve {
         let backend = Backend::best();
         let mut follow = Follow::new(self.plan, self.along, design);
-        sequence::run_one(self.plan.simulator(), backend, self.plan.solver(), &mut follow);
+        let run = PointRun::new(backend, self.plan.solver(), &[]);
+        sequence::run_one(self.plan.simulator(), &run, &mut follow);
         self.complete(follow.finish(), backend, &never)
     }
 
