@@ -22,6 +22,8 @@ const STEP_WITH_SEARCH: f64 = 2e-2;
 #[derive(Clone, Debug)]
 pub(super) struct Trial {
     pub(super) coordinates: Vec<f64>,
+    /// Values of the choices, see [`Region::choice`](super::region::Region::choice).
+    pub(super) choice: Vec<f64>,
     pub(super) row: Row,
     /// The goal: the number that must be largest or smallest.
     pub(super) goal: f64,
@@ -38,7 +40,7 @@ pub(super) struct Trial {
 
 impl Trial {
     /// The point with the given row of a plan that contains the problem's measures.
-    pub(super) fn new(problem: &Problem, coordinates: Vec<f64>, row: Row) -> Trial {
+    pub(super) fn new(problem: &Problem, coordinates: Vec<f64>, choice: Vec<f64>, row: Row) -> Trial {
         let goal_index = problem.goal_index();
         let known = row.status == Status::Periodic && row.measures.len() > goal_index;
         let at = |place: usize| if known { row.measures[place] } else { f64::NAN };
@@ -54,7 +56,7 @@ impl Trial {
             }
         });
         let excess = if goal.is_finite() { over.fold(0.0, f64::max) } else { f64::INFINITY };
-        Trial { coordinates, row, goal, sides, excess, slopes: Vec::new(), lacks_slopes: false }
+        Trial { coordinates, choice, row, goal, sides, excess, slopes: Vec::new(), lacks_slopes: false }
     }
 
     /// True if the point is better than another point: it is feasible with a better goal, or closer to a feasible
@@ -129,11 +131,6 @@ impl<'p> Evaluator<'p> {
         self.failure.take()
     }
 
-    /// The varied parameters with the values at the given coordinates.
-    pub(super) fn varied(&self, coordinates: &[f64]) -> Vec<(usize, f64)> {
-        self.problem.region.varied(coordinates, &self.choice)
-    }
-
     /// The point at the given coordinates.
     pub(super) fn at(&self, coordinates: &[f64]) -> Rc<Trial> {
         self.find(coordinates, false)
@@ -159,7 +156,7 @@ impl<'p> Evaluator<'p> {
         let sloped = self.problem.sloped.as_ref().filter(|_| has_slopes);
         let plan = sloped.unwrap_or(&self.problem.measured);
         let row = self.row(plan, coordinates);
-        let mut trial = Trial::new(self.problem, coordinates.to_vec(), row);
+        let mut trial = Trial::new(self.problem, coordinates.to_vec(), self.choice.clone(), row);
         if has_slopes && trial.excess.is_finite() {
             (trial.slopes, trial.lacks_slopes) = self.slopes(&trial, sloped.is_some());
         }
@@ -170,7 +167,7 @@ impl<'p> Evaluator<'p> {
     fn row(&self, plan: &Plan, coordinates: &[f64]) -> Row {
         self.rows.set(self.rows.get() + 1);
         let excluded = || Row::invalid("a condition of the grid excludes the point");
-        let point = match plan.clone().at(&self.varied(coordinates)) {
+        let point = match plan.clone().at(&self.problem.region.varied(coordinates, &self.choice)) {
             Ok(point) => point,
             Err(error) => return Row::invalid(error),
         };

@@ -1,10 +1,7 @@
 //! The search: first rows of the grid, then refinements in parallel.
 
 use std::num::NonZeroUsize;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::mpsc::{self, RecvTimeoutError};
-use std::thread;
-use std::time::Duration;
+use std::sync::Arc;
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{NoSlope, Rows as _};
@@ -14,9 +11,9 @@ use super::evaluate::{Evaluator, Trial};
 use super::problem::Problem;
 use super::refine::refine;
 use super::sensitivity::{CONVERGED, active};
-use super::starts::{self, Start};
+use super::starts;
 use crate::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
-use crate::run::{RunError, RunOptions};
+use crate::run::{Run, RunError, RunOptions};
 
 /// Largest relative difference of the values, and largest difference of the coordinates, between ends of searches that
 /// count as one optimum.
@@ -24,9 +21,6 @@ use crate::run::{RunError, RunOptions};
 /// Two ends of searches count as one optimum if they satisfy one of the pairs of limits. If the values of the goal are
 /// closer to each other, the coordinates may differ more.
 const SAME_OPTIMUM: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
-
-/// The time between two checks for a request to stop.
-const STOP_CHECK: Duration = Duration::from_millis(50);
 
 /// Settings of a search.
 #[derive(Clone, Copy, Debug)]
@@ -57,7 +51,6 @@ impl Default for Settings {
 /// The end point of a refinement.
 struct End {
     trial: Trial,
-    varied: Vec<(usize, f64)>,
     missing: Vec<NoSlope>,
     is_polished: bool,
     rows: u64,
@@ -71,7 +64,7 @@ struct End {
 /// If `stops` returns true, the search ends. The answer does not depend on the number of threads.
 ///
 /// # Errors
-/// [`RunError`] if a thread cannot be started, or the model breaks its contract.
+/// [`RunError`] if a thread panics or cannot be started, or the model breaks its contract.
 pub fn optimise(
     problem: &Problem,
     settings: &Settings,
@@ -88,11 +81,10 @@ pub fn optimise(
     if is_stopped {
         return Ok(None);
     }
-    let problem = &problem.sized_by(found.iter().map(|start| start.trial.goal));
-    let start_point =
-        |start: Start| StartPoint { coordinates: start.trial.coordinates, choice: start.choice };
-    let starts: Vec<StartPoint> = starts::best(problem, found, most).into_iter().map(start_point).collect();
-    let Some(ends) = refined(problem, settings, &starts, |done| stops(computed + done, all))? else {
+    let problem = &Arc::new(problem.sized_by(found.iter().map(|start| start.goal)));
+    let start_point = |start: Trial| StartPoint { coordinates: start.coordinates, choice: start.choice };
+    let starts = starts::best(problem, found, most).into_iter().map(start_point).collect();
+    let Some(ends) = refined(problem, settings, starts, |done| stops(computed + done, all))? else {
         return Ok(None);
     };
     Ok(answer(problem, &ends, computed))
@@ -108,14 +100,14 @@ pub fn optimise_from(
     designs: &[&Optimum],
     stops: &dyn Fn(u64, u64) -> bool,
 ) -> Result<Option<Optimum>, RunError> {
-    let problem = &problem.sized_by(designs.iter().map(|best| problem.value(best)));
+    let problem = &Arc::new(problem.sized_by(designs.iter().map(|best| problem.value(best))));
     let start_point = |best: &&Optimum| StartPoint {
         coordinates: problem.region.coordinates(&best.values),
         choice: problem.region.choice(&best.values),
     };
     let starts: Vec<StartPoint> = designs.iter().map(start_point).collect();
     let all = starts.len() as u64;
-    let ends = refined(problem, settings, &starts, |done| stops(done, all))?;
+    let ends = refined(problem, settings, starts, |done| stops(done, all))?;
     Ok(ends.and_then(|ends| answer(problem, &ends, 0)))
 }
 
@@ -127,58 +119,29 @@ struct StartPoint {
 
 /// The end points of the refinements in the order of the starts; `None` if the search was stopped.
 fn refined(
-    problem: &Problem,
+    problem: &Arc<Problem>,
     settings: &Settings,
-    starts: &[StartPoint],
+    starts: Vec<StartPoint>,
     stops: impl Fn(u64) -> bool,
 ) -> Result<Option<Vec<End>>, RunError> {
-    let (next, is_stopped) = (AtomicUsize::new(0), AtomicBool::new(false));
-    let (sender, receiver) = mpsc::channel();
-    let mut ends: Vec<Option<End>> = starts.iter().map(|_| None).collect();
-    let mut failure = None;
-    thread::scope(|scope| {
-        for _ in 0..settings.run.threads.get().min(starts.len()) {
-            let sender = sender.clone();
-            let (next, is_stopped) = (&next, &is_stopped);
-            let work = move || {
-                while !is_stopped.load(Ordering::Relaxed) {
-                    let number = next.fetch_add(1, Ordering::Relaxed);
-                    let Some(start) = starts.get(number) else { return };
-                    let end = end_of(problem, &settings.run, start, &|| is_stopped.load(Ordering::Relaxed));
-                    // The receiver waits for all senders.
-                    let _ = sender.send((number, end));
-                }
-            };
-            if let Err(error) = thread::Builder::new().spawn_scoped(scope, work) {
-                failure.get_or_insert(RunError::Threads(error));
-                is_stopped.store(true, Ordering::Relaxed);
-            }
-        }
-        drop(sender);
-        let mut done = 0;
-        loop {
-            match receiver.recv_timeout(STOP_CHECK) {
-                Ok((number, Ok(end))) => {
-                    done += 1;
-                    ends[number] = Some(end);
-                }
-                Ok((_, Err(error))) => {
-                    failure.get_or_insert(error);
-                    is_stopped.store(true, Ordering::Relaxed);
-                }
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => break,
-            }
-            if stops(done) {
-                is_stopped.store(true, Ordering::Relaxed);
-            }
+    let (problem, options) = (Arc::clone(problem), settings.run);
+    let mut run = Run::new(0..starts.len() as u64, &settings.run, move |worker| {
+        while let Some(position) = worker.next(true) {
+            let start = &starts[usize::try_from(position).unwrap_or(usize::MAX)];
+            let end = end_of(&problem, &options, start, &|| worker.is_cancelled());
+            worker.done(position, end);
         }
     });
-    match failure {
-        Some(failure) => Err(failure),
-        None if is_stopped.into_inner() => Ok(None),
-        None => Ok(ends.into_iter().collect()),
+    let mut ends = Vec::new();
+    while let Some(batch) = run.next_batch()? {
+        for end in batch {
+            ends.push(end?);
+        }
+        if stops(run.progress().finished) {
+            return Ok(None);
+        }
     }
+    Ok(Some(ends))
 }
 
 /// The end point of the refinement of one start.
@@ -194,7 +157,6 @@ fn end_of(
     match points.failure() {
         Some(failure) => Err(failure),
         None => Ok(End {
-            varied: points.varied(&best.coordinates),
             missing: points.missing(),
             is_polished: refined.is_polished,
             rows: points.rows.get(),
@@ -209,7 +171,8 @@ fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
     let mut order: Vec<&End> = ends.iter().collect();
     order.sort_by(|one, other| one.trial.order(problem, &other.trial));
     let best = *order.first()?;
-    let End { trial, varied, missing, is_polished, .. } = best;
+    let End { trial, missing, is_polished, .. } = best;
+    let varied = problem.region.varied(&trial.coordinates, &trial.choice);
     let (active, left_over) = active(problem, trial, *is_polished);
     let is_confirmed = trial.coordinates.is_empty() || left_over <= CONVERGED && !trial.lacks_slopes;
     let status = match trial.excess > 0.0 {
@@ -223,15 +186,15 @@ fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
     });
     let mut row = trial.row.clone();
     row.measures.truncate(problem.goal_index());
-    let mut values = problem.measured.clone().at(varied).ok()?.point(0).values;
+    let mut values = problem.measured.clone().at(&varied).ok()?.point(0).values;
     set_resonance(problem, &row.measures, &mut values);
     Some(Optimum {
         status,
         goal: trial.goal,
         values,
         row,
-        varied: varied.clone(),
-        at_end: at_end(problem, varied),
+        at_end: at_end(problem, &varied),
+        varied,
         active: if status == Status::Infeasible { Vec::new() } else { active },
         limits: limits.collect(),
         optima: optima(problem, &order),
@@ -287,9 +250,8 @@ fn optima(problem: &Problem, order: &[&End]) -> Vec<LocalOptimum> {
     for end in order {
         let same = found.iter_mut().find(|(other, trial)| {
             let size = problem.size(other.goal).max(problem.size(end.trial.goal));
-            let choice = end.trial.coordinates.len()..;
             other.is_feasible == (end.trial.excess == 0.0)
-                && other.varied[choice.clone()] == end.varied[choice]
+                && trial.choice == end.trial.choice
                 && SAME_OPTIMUM.iter().any(|[numbers, coordinates]| {
                     (other.goal - end.trial.goal).abs() <= numbers * size
                         && starts::distance(trial, &end.trial) <= *coordinates
@@ -300,8 +262,9 @@ fn optima(problem: &Problem, order: &[&End]) -> Vec<LocalOptimum> {
             continue;
         }
         let is_feasible = end.trial.excess == 0.0;
-        let other = LocalOptimum { goal: end.trial.goal, varied: end.varied.clone(), is_feasible, starts: 1 };
-        found.push((other, &end.trial));
+        let Trial { coordinates, choice, goal, .. } = &end.trial;
+        let varied = problem.region.varied(coordinates, choice);
+        found.push((LocalOptimum { goal: *goal, varied, is_feasible, starts: 1 }, &end.trial));
     }
     found.into_iter().map(|(other, _)| other).collect()
 }

@@ -9,12 +9,6 @@ use crate::study::survey::spread;
 /// The smallest distance in coordinates between distinct starts with the same options of the choices.
 const DISTINCT: f64 = 0.2;
 
-/// A point of the grid.
-pub(super) struct Start {
-    pub(super) trial: Trial,
-    pub(super) choice: Vec<f64>,
-}
-
 /// The points of the grid that are computed: all points, or `most` points that are spread over the grid.
 pub(super) fn selected(plan: Plan, most: u64) -> Plan {
     let plan = plan.with_all_points();
@@ -38,7 +32,7 @@ pub(super) fn computed(
     plan: &Plan,
     options: &RunOptions,
     mut stops: impl FnMut(&Run<Outcome>) -> bool,
-) -> Result<Vec<Start>, RunError> {
+) -> Result<Vec<Trial>, RunError> {
     let mut run = rows(plan, options, 0);
     let mut starts = Vec::new();
     let mut position = 0;
@@ -47,9 +41,11 @@ pub(super) fn computed(
             let point = plan.selected_point(position);
             position += 1;
             let Outcome::Ran(row) = outcome else { continue };
-            let trial = Trial::new(problem, problem.region.coordinates(&point.values), row);
+            let (coordinates, choice) =
+                (problem.region.coordinates(&point.values), problem.region.choice(&point.values));
+            let trial = Trial::new(problem, coordinates, choice, row);
             if trial.excess.is_finite() {
-                starts.push(Start { trial, choice: problem.region.choice(&point.values) });
+                starts.push(trial);
             }
         }
         if stops(&run) {
@@ -61,21 +57,20 @@ pub(super) fn computed(
 
 /// The best starts: first the best start of each choice, then further starts that are distinct from earlier starts. The
 /// list has at most `most` starts.
-pub(super) fn best(problem: &Problem, mut starts: Vec<Start>, most: usize) -> Vec<Start> {
+pub(super) fn best(problem: &Problem, mut starts: Vec<Trial>, most: usize) -> Vec<Trial> {
     // A stable sort: of equal starts the first one comes first.
-    starts.sort_by(|one, other| one.trial.order(problem, &other.trial));
-    let has_feasible = starts.first().is_some_and(|start| start.trial.excess == 0.0);
-    starts.retain(|start| !has_feasible || start.trial.excess == 0.0);
-    let mut chosen: Vec<Start> = Vec::new();
-    let mut others: Vec<Start> = Vec::new();
+    starts.sort_by(|one, other| one.order(problem, other));
+    let has_feasible = starts.first().is_some_and(|start| start.excess == 0.0);
+    starts.retain(|start| !has_feasible || start.excess == 0.0);
+    let mut chosen: Vec<Trial> = Vec::new();
+    let mut others: Vec<Trial> = Vec::new();
     for start in starts {
         let is_new = chosen.iter().all(|before| before.choice != start.choice);
         if is_new && chosen.len() < most { chosen.push(start) } else { others.push(start) }
     }
     for start in others {
-        let is_distinct = chosen
-            .iter()
-            .all(|before| before.choice != start.choice || distance(&before.trial, &start.trial) >= DISTINCT);
+        let is_distinct =
+            chosen.iter().all(|before| before.choice != start.choice || distance(before, &start) >= DISTINCT);
         if is_distinct && chosen.len() < most {
             chosen.push(start);
         }
