@@ -91,7 +91,7 @@ fn mistakes_have_a_place_and_help() {
     refuses("bias=1V:2V,drive_offset=1V:2V", &["--wrench-map: `drive_offset` is named twice"]);
     refuses(
         "bias=1V:2V,amplitude=1V:2V --samples 9",
-        &["--samples 9: 9 samples are too few for 6 coefficients", "at least 10", "leave out inputs"],
+        &["--wrench-map: 9 samples are too few for 6 coefficients", "at least 10", "leave out inputs"],
     );
     refuses(
         "bias=-10V:10V --max-cycles 1",

@@ -1,5 +1,7 @@
 """Flights of a vehicle over time, free and with a linear-quadratic regulator."""
 
+import re
+
 import control
 import flapwing
 import numpy as np
@@ -107,7 +109,7 @@ def test_mistakes(regulator):
         flapwing.fly(ROBOT, seconds=-1, **POINT)
     with pytest.raises(ValueError, match="body_inertia_roll"):
         flapwing.fly(ROBOT, seconds=1, drive_voltage_pp="140 V")
-    with pytest.raises(ValueError, match="it must be a vehicle"):
+    with pytest.raises(ValueError, match="the design describes one wing, not a vehicle\nadd"):
         flapwing.fly("jafferis2016", seconds=1)
     gains = np.zeros((1, 9))
     gains[0, 0] = 1e6
@@ -116,6 +118,23 @@ def test_mistakes(regulator):
             ROBOT, seconds=1, disturbance={"velocity_forward": 0.1}, gains=gains, inputs=["amplitude"], **POINT
         )
     assert len(short) == 1
+
+
+def test_derived_parameters_are_no_inputs():
+    """As for the command, the formula of a derived parameter would be ignored."""
+    derived = {"preset": "jafferis2016", "derived": {"drive_offset": "drive_voltage_pp / 20"}}
+    robot = flapwing.Vehicle(derived, WINGS, about=["0 mm", "0 mm", "-3 mm"], total_mass="69 mg")
+    for call in (
+        lambda: flapwing.fly(robot, seconds=0.05, inputs=["bias"], **POINT),
+        lambda: robot.linear(inputs=["bias"], **POINT),
+        lambda: robot.linear(**POINT),
+    ):
+        with pytest.raises(ValueError, match="`bias` is derived from other parameters\nchoose the parameters"):
+            call()
+    warning = "derived parameters .* are held constant while inputs change"
+    with pytest.warns(UserWarning, match=warning):
+        flapwing.fly(robot, seconds=0.05, inputs=["amplitude"], **POINT)
+    assert re.match(warning, robot.linear(inputs=["amplitude"], **POINT).warnings[0])
 
 
 def test_the_command_prints_the_same_flight(flap, tmp_path):

@@ -95,7 +95,7 @@ def test_poor_maps_warn():
         ({"bias": "1 V"}, TypeError, r"`ranges\['bias'\]` is str"),
         ({"bias": 3}, TypeError, r"`ranges\['bias'\]` is int"),
         ({1: (1, 2)}, TypeError, "`ranges` is int"),
-        ({"biass": (1, 2)}, ValueError, "ranges: the vehicle has no input `biass`, did you mean `bias`?"),
+        ({"biass": (1, 2)}, ValueError, "ranges: the vehicle has no input `biass`\ndid you mean `bias`\\?"),
         ({"bias": ("1 V", "2 mm")}, ValueError, "`mm` is a length"),
         ({"drive_shape": (0, 1)}, ValueError, "`drive_shape` is a choice"),
         ({"bias": (1, 2), "drive_offset": (1, 2)}, ValueError, "`drive_offset` is named twice"),
@@ -112,7 +112,7 @@ def test_other_mistakes(quadratic):
     ranges = {"bias": (-10, 10)}
     with pytest.raises(ValueError, match="5 samples are too few for 3 coefficients .*: at least 10 are needed"):
         flapwing.wrench_map(VEHICLE, ranges=ranges, samples=5)
-    with pytest.raises(ValueError, match="needs a vehicle, not one wing\nadd"):
+    with pytest.raises(ValueError, match="the design describes one wing, not a vehicle\nadd"):
         flapwing.wrench_map("jafferis2016", ranges=ranges)
     with pytest.raises(ValueError, match="none of the 400 rows are periodic, .*: 400 unsettled\nchoose narrower"):
         flapwing.wrench_map(VEHICLE, ranges=ranges, max_cycles=1)

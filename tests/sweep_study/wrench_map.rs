@@ -143,7 +143,7 @@ fn rows_without_a_periodic_motion_are_counted() {
     assert_eq!(map.fitted + map.left_out + invalid[0].1, 200);
     assert!(map.warnings()[0].ends_with(&format!("{} invalid", invalid[0].1)), "{:?}", map.warnings());
     let error = of(vec![input("amplitude_difference", 420.0, 440.0)]).unwrap_err();
-    assert!(matches!(error, WrenchMapError::FewRows(_)));
+    assert!(matches!(error, WrenchMapError::Mistake(_)));
     let start = "none of the 200 rows are periodic, too few for 3 coefficients per component: 200 invalid (";
     assert!(error.to_string().starts_with(start), "{error}");
 }

@@ -65,9 +65,14 @@ pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     }
 }
 
-/// Returns a `ValueError` for an experiment without results.
+/// Returns a `ValueError` for a mistake of the user, such as an experiment without results.
 pub(crate) fn experiment(error: &UserError) -> PyErr {
     with_help(error, error.help.as_ref())
+}
+
+/// Returns a `ValueError` for a mistake in an argument with the given name.
+pub(crate) fn argument(name: &str, error: &UserError) -> PyErr {
+    with_help(format!("{name}: {error}"), error.help.as_ref())
 }
 
 /// Returns a `ValueError` for text that is not a quantity. `name` is the name of the argument with the text.

@@ -1,6 +1,7 @@
 //! Flight of a vehicle over time.
 
 use flap_core::simulate::Trajectory;
+use flap_sweep::study::inputs;
 use flap_sweep::vehicle::control::VehicleRun;
 use flap_sweep::vehicle::flight::{self, FED_BACK, FlightError, FlightRequest};
 use flap_sweep::vehicle::hover::STATES;
@@ -11,7 +12,7 @@ use pyo3::types::{IntoPyDict, PyDict};
 
 use crate::point::Chosen;
 use crate::watch::interruptible;
-use crate::{convert, linear, motion, parameters};
+use crate::{convert, error, linear, motion, parameters};
 
 /// Simulate the flight of a vehicle; see `flapwing.fly`.
 #[pyfunction]
@@ -31,8 +32,7 @@ pub(crate) fn fly<'py>(
     samples: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let chosen = Chosen::new(design, keywords, point, None)?.at_hover(py)?;
-    let vehicle = (chosen.plan.vehicle())
-        .ok_or_else(|| PyValueError::new_err("the design has one wing\nit must be a vehicle"))?;
+    let vehicle = inputs::vehicle(&chosen.plan, "the design").map_err(|error| error::experiment(&error))?;
     let mut start = [0.0; FED_BACK];
     for (name, value) in &disturbance {
         let Some(state) = STATES[..FED_BACK].iter().position(|(state, _)| state == name) else {
@@ -43,7 +43,7 @@ pub(crate) fn fly<'py>(
         };
         start[state] = convert::quantity(&format!("disturbance[{name:?}]"), STATES[state].1, true, value)?;
     }
-    let inputs = linear::named(vehicle, &inputs)?;
+    let inputs = linear::named(&chosen.plan, &inputs)?;
     let gains =
         gains.map(|rows| DMatrix::from_fn(rows.len(), rows.first().map_or(0, Vec::len), |i, j| rows[i][j]));
     let request = FlightRequest {
@@ -72,7 +72,11 @@ pub(crate) fn fly<'py>(
     let made = Trajectory { columns: record.columns, rows: record.rows };
     let dict = motion::into_python(py, made, meaning, &chosen.meta(py)?)?;
     dict.set_item("units", units)?;
-    dict.set_item("warnings", record.end.into_iter().collect::<Vec<_>>())?;
+    let held_constant = inputs::held_constant(&chosen.plan).filter(|_| !inputs.is_empty());
+    dict.set_item(
+        "warnings",
+        held_constant.map(str::to_owned).into_iter().chain(record.end).collect::<Vec<_>>(),
+    )?;
     Ok(dict)
 }
 

@@ -1,7 +1,8 @@
 //! The linear model of a vehicle about hover.
 
-use flap_core::vehicle::Vehicle;
 use flap_sweep::files::linear_model::LinearModel;
+use flap_sweep::plan::Plan;
+use flap_sweep::study::inputs;
 use flap_sweep::vehicle::control::{Input, VehicleRun};
 use flap_sweep::vehicle::hover::{self, component};
 use flap_sweep::vehicle::trim;
@@ -11,6 +12,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::error;
 use crate::point::Chosen;
 use crate::watch::interruptible;
 
@@ -27,12 +29,11 @@ pub(crate) fn linear<'py>(
     positions: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let chosen = Chosen::new(design, keywords, point, None)?.at_hover(py)?;
-    let vehicle = (chosen.plan.vehicle())
-        .ok_or_else(|| PyValueError::new_err("the design has one wing\nit must be a vehicle"))?;
+    let vehicle = inputs::vehicle(&chosen.plan, "the design").map_err(|error| error::experiment(&error))?;
     let is_usual = inputs.is_none();
     let inputs = match inputs {
-        None => Input::usual(vehicle, &chosen.values),
-        Some(names) => named(vehicle, &names)?,
+        None => inputs::usual(&chosen.plan, &chosen.values).map_err(|error| error::experiment(&error))?,
+        Some(names) => named(&chosen.plan, &names)?,
     };
     let targets = match trim_to_hover.then(|| hover::targets(&vehicle.mass_properties(&chosen.values))) {
         Some(None) => {
@@ -56,27 +57,23 @@ pub(crate) fn linear<'py>(
         let values = at.applied(&chosen.values);
         LinearModel::at(&vehicle_run, &values, &at, positions, design).map_err(|error| error.to_string())
     })?;
-    into_python(py, &model.map_err(PyValueError::new_err)?)
+    let model = model.map_err(PyValueError::new_err)?;
+    let held_constant = inputs::held_constant(&chosen.plan).map(str::to_owned);
+    let warnings = held_constant.into_iter().chain(model.warnings()).collect();
+    into_python(py, &model, warnings)
 }
 
-pub(crate) fn named(vehicle: &Vehicle, names: &[String]) -> PyResult<Vec<Input>> {
-    let mut inputs: Vec<Input> = Vec::new();
-    for name in names {
-        let refused = |error| {
-            PyValueError::new_err(format!("inputs: {error}\n`flap vehicle --help` lists words for inputs"))
-        };
-        let input = Input::of(vehicle, name).map_err(refused)?;
-        if let Some(other) = inputs.iter().find(|other| other.parameter == input.parameter) {
-            let message = format!("inputs: `{}` and `{name}` are the same parameter", other.name);
-            return Err(PyValueError::new_err(message));
-        }
-        inputs.push(input);
-    }
-    Ok(inputs)
+/// Returns the inputs that the argument `inputs` names.
+pub(crate) fn named(plan: &Plan, names: &[String]) -> PyResult<Vec<Input>> {
+    inputs::named(plan, names).map_err(|error| error::argument("inputs", &error))
 }
 
 /// Returns the model as a dictionary; see `flapwing.LinearModel`.
-fn into_python<'py>(py: Python<'py>, model: &LinearModel) -> PyResult<Bound<'py, PyDict>> {
+fn into_python<'py>(
+    py: Python<'py>,
+    model: &LinearModel,
+    warnings: Vec<String>,
+) -> PyResult<Bound<'py, PyDict>> {
     let matrix = |matrix: &DMatrix<f64>| {
         PyArray2::from_owned_array(py, numpy::ndarray::Array2::from_shape_fn(matrix.shape(), |at| matrix[at]))
     };
@@ -111,6 +108,6 @@ fn into_python<'py>(py: Python<'py>, model: &LinearModel) -> PyResult<Bound<'py,
     dict.set_item("wrench", (0..6).map(component).collect::<Vec<_>>())?;
     dict.set_item("drive_frequency", model.frequency)?;
     dict.set_item("floquet_max", model.floquet_max)?;
-    dict.set_item("warnings", model.warnings())?;
+    dict.set_item("warnings", warnings)?;
     Ok(dict)
 }

@@ -2,8 +2,9 @@
 
 use std::cell::RefCell;
 
+use flap_sweep::study::inputs;
 use flap_sweep::study::wrench_map::{MapInput, WrenchMap, WrenchMapError};
-use flap_sweep::vehicle::control::{COMPONENTS, ControlInputError, Input};
+use flap_sweep::vehicle::control::COMPONENTS;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -30,6 +31,7 @@ pub(crate) fn wrench_map<'py>(
     let options = sweep::options(threads)?;
     let samples = convert::count("samples", samples)?;
     let chosen = Chosen::new(design, keywords, point, None)?.at_hover(py)?;
+    inputs::vehicle(&chosen.plan, "the design").map_err(|error| error::experiment(&error))?;
     let mut inputs = Vec::new();
     for (name, from, to) in &ranges {
         inputs.push(input(&chosen, name, from, to)?);
@@ -45,35 +47,20 @@ pub(crate) fn wrench_map<'py>(
         (found, watch.into_inner())
     });
     watch.ended()?;
-    let map = found.map_err(refused)?.ok_or_else(|| PyValueError::new_err("interrupted"))?;
+    let found = found.map_err(|error| match error {
+        WrenchMapError::Mistake(error) => error::experiment(&error),
+        WrenchMapError::Run(error) => error::run(&error),
+    });
+    let map = found?.ok_or_else(|| PyValueError::new_err("interrupted"))?;
     into_python(py, &chosen, &map)
 }
 
 /// Returns an input of the map with its range.
 fn input(chosen: &Chosen, name: &str, from: &Bound<'_, PyAny>, to: &Bound<'_, PyAny>) -> PyResult<MapInput> {
-    let vehicle = chosen.plan.vehicle().ok_or_else(|| refused(WrenchMapError::NoVehicle))?;
-    let input = Input::of(vehicle, name).map_err(|error| {
-        let near = match error {
-            ControlInputError::Unknown(_) => {
-                let known = Input::names(vehicle);
-                let known: Vec<&str> = known.iter().map(String::as_str).collect();
-                parameters::did_you_mean(name, &known)
-            }
-            ControlInputError::Choice(_) => String::new(),
-        };
-        PyValueError::new_err(format!("ranges: {error}{near}"))
-    })?;
+    let input = inputs::input(&chosen.plan, name).map_err(|error| error::argument("ranges", &error))?;
     let parameter = &chosen.plan.parameters()[input.parameter];
     let [from, to] = [from, to].map(|value| parameters::value_of(parameter, value));
-    MapInput::new(&input, from?, to?).map_err(refused)
-}
-
-/// Returns the exception for a map that cannot be computed.
-fn refused(error: WrenchMapError) -> PyErr {
-    match error {
-        WrenchMapError::Run(error) => error::run(&error),
-        error => error::with_help(&error, error.help()),
-    }
+    MapInput::new(&input, from?, to?).map_err(|error| error::experiment(&error))
 }
 
 /// Returns the map as a dictionary; see `flapwing.WrenchMap`.

@@ -8,14 +8,15 @@ mod wrench_map;
 use std::fmt::Write as _;
 
 use flap_core::simulate::{NoSlope, never};
-use flap_core::vehicle::{MassProperties, Vehicle};
+use flap_core::vehicle::MassProperties;
 use flap_sweep::files::linear_model::LinearModel;
 use flap_sweep::notation::text;
+use flap_sweep::study::inputs;
 use flap_sweep::vehicle::control::{COMPONENTS, ControlError, Effectiveness, Input, VehicleRun};
 use flap_sweep::vehicle::hover::damping;
 use flap_sweep::vehicle::trim::{self, Target};
 
-use self::parts::{HEADINGS, input, tidy, title};
+use self::parts::{HEADINGS, refused, tidy, title};
 use super::point::Chosen;
 use crate::args::{HOVER, OutputFormat, VehicleArgs};
 use crate::console;
@@ -34,23 +35,17 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     if args.frozen {
         hover::freeze(&mut chosen)?;
     }
-    let Some(vehicle) = chosen.plan.vehicle() else {
-        let failure = Failure::usage(format!("{} describes one wing, not a vehicle", args.point.what));
-        return Err(failure
-            .help("add [vehicle] and [[vehicle.wings]] to a grid file: see the manual, How to, Vehicles"));
-    };
+    let vehicle = inputs::vehicle(&chosen.plan, &args.point.what)?;
     if !args.wrench_map.is_empty() {
         return wrench_map::run(args, &chosen, vehicle);
     }
-    let inputs = inputs(vehicle, &chosen, &args.inputs)?;
-    if let Some(input) = inputs.iter().find(|input| is_derived(&chosen, input)) {
-        let failure = Failure::usage(format!("`{}` is derived from other parameters", input.name));
-        return Err(
-            failure.help("choose the parameters from which it is derived, or remove it from [derived]")
-        );
-    }
-    if chosen.plan.derived().parameters().next().is_some() {
-        console::warn("derived parameters ([derived]) are held constant while inputs change");
+    let inputs = if args.inputs.is_empty() {
+        inputs::usual(&chosen.plan, &chosen.values)?
+    } else {
+        inputs::named(&chosen.plan, &args.inputs).map_err(|error| refused("--inputs", error))?
+    };
+    if let Some(warning) = inputs::held_constant(&chosen.plan) {
+        console::warn(warning);
     }
     let export = args.export.as_deref().map(|path| hover::check_output(path, &chosen.plan)).transpose()?;
     if args.format != OutputFormat::Table && args.damping && args.hover {
@@ -110,26 +105,6 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
         page
     })?;
     Ok(Exit::Done)
-}
-
-/// Returns the inputs that the command line selects, or the default inputs.
-fn inputs(vehicle: &Vehicle, chosen: &Chosen, names: &[String]) -> Result<Vec<Input>, Failure> {
-    if names.is_empty() {
-        return Ok(Input::usual(vehicle, &chosen.values));
-    }
-    let mut inputs: Vec<Input> = Vec::new();
-    for name in names {
-        let input = input(vehicle, chosen, name, "--inputs")?;
-        if inputs.iter().any(|other| other.parameter == input.parameter) {
-            return Err(Failure::usage(format!("--inputs: `{name}` is named twice")));
-        }
-        inputs.push(input);
-    }
-    Ok(inputs)
-}
-
-fn is_derived(chosen: &Chosen, input: &Input) -> bool {
-    chosen.plan.derived().parameters().any(|derived| derived == input.parameter)
 }
 
 /// Returns the targets of `--trim`.

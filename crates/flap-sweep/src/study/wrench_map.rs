@@ -10,9 +10,10 @@
 use flap_core::simulate::{Row, Status};
 use nalgebra::{DMatrix, DVector};
 
-use crate::notation::text;
+use super::inputs;
+use crate::notation::{UserError, text};
+use crate::plan::Plan;
 use crate::plan::sample::{Distribution, Method, SamplePoints};
-use crate::plan::{ChangeError, Plan};
 use crate::run::{Outcome, Progress, RunError, RunOptions, rows};
 use crate::vehicle::control::{COMPONENTS, Input, because, places};
 
@@ -34,6 +35,9 @@ const POOR: f64 = 0.99;
 /// Floquet multiplier above which a motion is near a steep part of its response.
 const STEEP: f64 = 0.7;
 
+/// Advice if the periodic rows are too few, or do not determine the map.
+const NARROWER: &str = "choose narrower ranges around a settled motion, or more samples";
+
 /// Seed of the sample.
 const SEED: u64 = 0;
 
@@ -54,13 +58,14 @@ impl MapInput {
     /// Returns `input` with the range between two values (SI).
     ///
     /// # Errors
-    /// [`WrenchMapError::Range`] if `from` is not less than `to`.
-    pub fn new(input: &Input, from: f64, to: f64) -> Result<MapInput, WrenchMapError> {
+    /// An error if `from` is not less than `to`.
+    pub fn new(input: &Input, from: f64, to: f64) -> Result<MapInput, UserError> {
         if from < to {
             return Ok(MapInput { name: input.name.clone(), parameter: input.parameter, from, to });
         }
         let mistake = if from == to { "is empty" } else { "ends below its beginning" };
-        Err(WrenchMapError::Range(input.name.clone(), mistake))
+        let help = "a range has its smaller end first, as in 180V:220V";
+        Err(UserError::new(format!("the range of `{}` {mistake}", input.name), Some(help)))
     }
 
     /// Returns the centre of the range (SI).
@@ -77,71 +82,12 @@ impl MapInput {
 /// Reason why a map cannot be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum WrenchMapError {
-    /// The plan describes one wing, not a vehicle.
-    #[error("a wrench map needs a vehicle, not one wing")]
-    NoVehicle,
-    /// The map has no inputs, or too many inputs.
-    #[error("a wrench map needs 1 to {most} inputs, not {0}", most = WrenchMap::MOST_INPUTS)]
-    Inputs(usize),
-    /// Two inputs change the same parameter.
-    #[error("`{0}` is named twice")]
-    Twice(String),
-    /// The parameter is computed from other parameters.
-    #[error("`{0}` is derived from other parameters")]
-    Derived(String),
-    /// The range of an input is empty, or its first value is above its last value. The error contains the name of the
-    /// input and the mistake.
-    #[error("the range of `{0}` {1}")]
-    Range(String, &'static str),
-    /// The number of samples is too small for the map.
-    #[error(
-        "{samples} samples are too few for {terms} coefficients per component: at least {needed} are needed"
-    )]
-    FewSamples {
-        /// Number of samples.
-        samples: usize,
-        /// Number of coefficients of each component of force and torque.
-        terms: usize,
-        /// Smallest number of samples.
-        needed: usize,
-    },
-    /// The number of periodic rows is too small for the map. The error contains the numbers of rows.
-    #[error("{0}")]
-    FewRows(String),
-    /// The periodic rows do not determine all coefficients.
-    #[error("the periodic rows do not determine all coefficients")]
-    Undetermined,
-    /// The plan cannot be changed.
+    /// Inputs, samples or the plan have a mistake, or too few points have a periodic motion.
     #[error(transparent)]
-    Change(#[from] ChangeError),
+    Mistake(#[from] UserError),
     /// The rows cannot be computed.
     #[error(transparent)]
     Run(#[from] RunError),
-}
-
-impl WrenchMapError {
-    /// Returns advice for the user, if there is advice for this mistake.
-    pub fn help(&self) -> Option<&'static str> {
-        match self {
-            WrenchMapError::NoVehicle => {
-                Some("add [vehicle] and [[vehicle.wings]] to a grid file: see the manual, How to, Vehicles")
-            }
-            WrenchMapError::Derived(_) => {
-                Some("choose the parameters from which it is derived, or remove it from [derived]")
-            }
-            WrenchMapError::Range(..) => Some("a range has its smaller end first, as in 180V:220V"),
-            WrenchMapError::FewSamples { .. } => Some(
-                "compute more samples, or leave out inputs; 200 or more samples are usual for four inputs",
-            ),
-            WrenchMapError::FewRows(_) | WrenchMapError::Undetermined => {
-                Some("choose narrower ranges around a settled motion, or more samples")
-            }
-            WrenchMapError::Inputs(_)
-            | WrenchMapError::Twice(_)
-            | WrenchMapError::Change(_)
-            | WrenchMapError::Run(_) => None,
-        }
-    }
 }
 
 /// Returns the numbers of rows by status, such as `3 unsettled, 1 invalid`.
@@ -170,8 +116,8 @@ pub struct WrenchMap {
     pub unused: Vec<(Status, usize)>,
     /// Largest magnitude of the Floquet multipliers of the rows; NaN if unknown.
     pub floquet_max: f64,
-    /// True if the plan has derived parameters, which have the values of the point in all rows.
-    has_derived: bool,
+    /// The warning for derived parameters, which have the values of the point in all rows.
+    held_constant: Option<&'static str>,
 }
 
 impl WrenchMap {
@@ -188,8 +134,7 @@ impl WrenchMap {
     /// called repeatedly during the computation. If `stops` returns true, the computation ends without a map.
     ///
     /// # Errors
-    /// - [`WrenchMapError`] for a mistake in inputs and samples.
-    /// - [`WrenchMapError::FewRows`] or [`WrenchMapError::Undetermined`] if too few points have a periodic motion.
+    /// [`WrenchMapError`] for a mistake in inputs and samples, or if too few points have a periodic motion.
     pub fn of(
         plan: &Plan,
         values: &[f64],
@@ -198,12 +143,13 @@ impl WrenchMap {
         options: &RunOptions,
         mut stops: impl FnMut(Progress) -> bool,
     ) -> Result<Option<WrenchMap>, WrenchMapError> {
-        let places = places(plan.vehicle().ok_or(WrenchMapError::NoVehicle)?);
-        check(plan, &inputs, samples)?;
+        let places = places(inputs::vehicle(plan, "the design")?);
+        check(&inputs, samples)?;
         let axis = sampled(&inputs, samples);
-        let has_derived = plan.derived().parameters().next().is_some();
+        let held_constant = inputs::held_constant(plan);
         let plan = plan.clone().of_point(values).without_hover().with_measures(Vec::new());
-        let plan = plan.crossed_with(axis.clone())?;
+        let plan =
+            plan.crossed_with(axis.clone()).map_err(|error| UserError::new(error.to_string(), None))?;
         let mut run = rows(&plan, options, 0);
         let mut found: Vec<Row> = Vec::new();
         while let Some(batch) = run.next_batch()? {
@@ -224,20 +170,23 @@ impl WrenchMap {
                 0 => format!("none of the {samples}"),
                 some => format!("only {some} of the {samples}"),
             };
-            return Err(WrenchMapError::FewRows(format!(
+            let message = format!(
                 "{rows} rows are periodic, too few for {terms} coefficients per component: {}{}",
                 statuses(&unused),
                 because(found.iter().find_map(|row| row.reason.as_deref()))
-            )));
+            );
+            return Err(UserError::new(message, Some(NARROWER)).into());
         }
         let point = |(index, _): &(usize, &Row)| axis.iter().map(|(_, list)| list[*index]).collect();
         let points: Vec<Vec<f64>> = periodic.iter().map(point).collect();
         let wrench = |(_, row): &(usize, &Row)| places.map(|place| row.measures[place]);
         let wrenches: Vec<[f64; 6]> = periodic.iter().map(wrench).collect();
         let floquet_max = periodic.iter().map(|(_, row)| row.floquet_max).fold(f64::NAN, f64::max);
-        WrenchMap::fitted_to(inputs, &points, &wrenches)
-            .map(|map| Some(WrenchMap { unused, floquet_max, has_derived, ..map }))
-            .ok_or(WrenchMapError::Undetermined)
+        let Some(map) = WrenchMap::fitted_to(inputs, &points, &wrenches) else {
+            let message = "the periodic rows do not determine all coefficients".to_owned();
+            return Err(UserError::new(message, Some(NARROWER)).into());
+        };
+        Ok(Some(WrenchMap { unused, floquet_max, held_constant, ..map }))
     }
 
     /// Returns the map that fits the given wrenches at the given points (SI). Every fifth point is left out of the fit.
@@ -254,7 +203,7 @@ impl WrenchMap {
             left_out: tested.len(),
             unused: Vec::new(),
             floquet_max: f64::NAN,
-            has_derived: false,
+            held_constant: None,
         };
         let lines: Vec<DVector<f64>> = fitted.iter().map(|&place| map.monomials(&points[place])).collect();
         let matrix = DMatrix::from_fn(fitted.len(), count, |i, j| lines[i][j]);
@@ -331,9 +280,7 @@ impl WrenchMap {
     /// Returns warnings about the map: rows that are not used, poor components, a steep response, inputs without effect.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
-        if self.has_derived {
-            warnings.push("derived parameters ([derived]) are held constant while inputs change".to_owned());
-        }
+        warnings.extend(self.held_constant.map(str::to_owned));
         let unused: usize = self.unused.iter().map(|(_, rows)| rows).sum();
         if unused > 0 {
             warnings.push(format!(
@@ -399,22 +346,24 @@ fn needed(terms: usize) -> usize {
     (terms + (terms - 1) / (LEFT_OUT - 1)).max(FEWEST_SAMPLES)
 }
 
-fn check(plan: &Plan, inputs: &[MapInput], samples: u32) -> Result<(), WrenchMapError> {
-    if inputs.is_empty() || inputs.len() > WrenchMap::MOST_INPUTS {
-        return Err(WrenchMapError::Inputs(inputs.len()));
+fn check(inputs: &[MapInput], samples: u32) -> Result<(), UserError> {
+    let (most, given) = (WrenchMap::MOST_INPUTS, inputs.len());
+    if given == 0 || given > most {
+        return Err(UserError::new(format!("a wrench map needs 1 to {most} inputs, not {given}"), None));
     }
     for (place, input) in inputs.iter().enumerate() {
         if inputs[..place].iter().any(|other| other.parameter == input.parameter) {
-            return Err(WrenchMapError::Twice(input.name.clone()));
-        }
-        if plan.derived().parameters().any(|derived| derived == input.parameter) {
-            return Err(WrenchMapError::Derived(input.name.clone()));
+            return Err(inputs::twice(&input.name));
         }
     }
-    let terms = terms(inputs.len()).len();
-    let (samples, needed) = (samples as usize, needed(terms));
-    if samples < needed {
-        return Err(WrenchMapError::FewSamples { samples, terms, needed });
+    let terms = terms(given).len();
+    let needed = needed(terms);
+    if (samples as usize) < needed {
+        let help = "compute more samples, or leave out inputs; 200 or more samples are usual for four inputs";
+        let message = format!(
+            "{samples} samples are too few for {terms} coefficients per component: at least {needed} are needed"
+        );
+        return Err(UserError::new(message, Some(help)));
     }
     Ok(())
 }

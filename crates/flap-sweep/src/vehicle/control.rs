@@ -11,7 +11,7 @@ use flap_core::vehicle::{FORCES, TORQUES, Vehicle, standing};
 use nalgebra::DMatrix;
 
 use crate::derivative::{self, is_least};
-use crate::notation::text;
+use crate::notation::{UserError, nearest, text};
 
 /// Words for drive parameters, each with the names in different models.
 pub const WORDS: [(&str, &[&str]); 6] = [
@@ -39,17 +39,6 @@ pub struct Input {
     pub factor: f64,
 }
 
-/// Error of an unknown or unsuitable input.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum ControlInputError {
-    /// The vehicle has no parameter for the input.
-    #[error("the vehicle has no input `{0}`")]
-    Unknown(String),
-    /// The parameter is a choice.
-    #[error("`{0}` is a choice, not an input")]
-    Choice(String),
-}
-
 impl Input {
     /// Returns the input called `name`: a parameter of the vehicle, or one of [`WORDS`].
     ///
@@ -57,17 +46,19 @@ impl Input {
     /// (`left_bias`), and before `_difference` to the left-right difference.
     ///
     /// # Errors
-    /// An error if the vehicle has no input with the given name.
-    pub fn of(vehicle: &Vehicle, name: &str) -> Result<Input, ControlInputError> {
-        let parameters = vehicle.parameters();
-        let unknown = || ControlInputError::Unknown(name.to_owned());
-        let index = names(vehicle, name)
-            .iter()
-            .find_map(|name| Parameter::index(parameters, name))
-            .ok_or_else(unknown)?;
-        let parameter = &parameters[index];
+    /// An error if the vehicle has no input with the given name, or if the parameter is a choice.
+    pub fn of(vehicle: &Vehicle, name: &str) -> Result<Input, UserError> {
+        let Some(index) = index(vehicle, name) else {
+            let known = Input::names(vehicle);
+            let near = nearest(name, known.iter().map(String::as_str));
+            let help = near.map_or("`flap vehicle --help` lists words for inputs".to_owned(), |near| {
+                format!("did you mean `{near}`?")
+            });
+            return Err(UserError::new(format!("the vehicle has no input `{name}`"), Some(&help)));
+        };
+        let parameter = &vehicle.parameters()[index];
         if let Kind::Choice(_) = parameter.kind {
-            return Err(ControlInputError::Choice(name.to_owned()));
+            return Err(UserError::new(format!("`{name}` is a choice, not an input"), None));
         }
         let (unit, factor) = match parameter.unit {
             "rad" => ("deg", 1.0_f64.to_radians()),
@@ -99,7 +90,7 @@ impl Input {
             let of_wings = vehicle.mounts().iter().map(move |mount| format!("{}_{word}", mount.name));
             [(*word).to_owned(), format!("{word}{DIFFERENCE}")].into_iter().chain(of_wings)
         });
-        let words = words.filter(|name| Input::of(vehicle, name).is_ok());
+        let words = words.filter(|name| index(vehicle, name).is_some());
         let parameters = vehicle.parameters().iter();
         let numbers = parameters.filter(|parameter| !matches!(parameter.kind, Kind::Choice(_)));
         words.chain(numbers.map(|parameter| parameter.name.to_owned())).collect()
@@ -142,6 +133,11 @@ impl Input {
         let size = derivative::size(vehicle, values, self.parameter);
         size.map(f64::abs).ok_or_else(|| ControlError::NoSize(self.name.clone()))
     }
+}
+
+/// Returns the index of the parameter that a name represents.
+fn index(vehicle: &Vehicle, name: &str) -> Option<usize> {
+    names(vehicle, name).iter().find_map(|name| Parameter::index(vehicle.parameters(), name))
 }
 
 /// Returns the parameters that a name may represent.

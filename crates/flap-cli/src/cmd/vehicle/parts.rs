@@ -1,8 +1,7 @@
 //! Parts that are the same in several outputs of `flap vehicle`.
 
 use flap_core::vehicle::Vehicle;
-use flap_sweep::grid;
-use flap_sweep::vehicle::control::{ControlInputError, Input};
+use flap_sweep::notation::UserError;
 
 use super::super::point::Chosen;
 use crate::failure::Failure;
@@ -16,22 +15,9 @@ pub(super) fn title(chosen: &Chosen, vehicle: &Vehicle) -> String {
     format!("{}: a vehicle with the {wings_are} {}", chosen.title(), wings.join(", "))
 }
 
-/// Returns the input called `name`, which the user gave with `option`.
-pub(super) fn input(vehicle: &Vehicle, chosen: &Chosen, name: &str, option: &str) -> Result<Input, Failure> {
-    Input::of(vehicle, name).map_err(|error| {
-        let failure = Failure::usage(format!("{option}: {error}"));
-        match error {
-            ControlInputError::Unknown(_) => {
-                if let Some(reason) = grid::why_absent(chosen.plan.parameters(), name) {
-                    return failure.help(reason);
-                }
-                let known = Input::names(vehicle);
-                let known = known.iter().map(String::as_str);
-                failure.nearest(name, known, "`flap vehicle --help` lists words for inputs")
-            }
-            ControlInputError::Choice(_) => failure,
-        }
-    })
+/// Returns the failure for a mistake in the value of `option`.
+pub(super) fn refused(option: &str, error: UserError) -> Failure {
+    Failure::usage(format!("{option}: {error}")).helps(error.help)
 }
 
 /// Returns the number, or zero if the number is a rounding error compared with 1 mN or 1 uN·m.

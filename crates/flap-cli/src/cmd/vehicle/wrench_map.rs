@@ -6,11 +6,12 @@ use flap_core::vehicle::Vehicle;
 use flap_sweep::notation::text::{self, count};
 use flap_sweep::notation::units::prefixed;
 use flap_sweep::run::RunOptions;
+use flap_sweep::study::inputs;
 use flap_sweep::study::wrench_map::{MapInput, WrenchMap, WrenchMapError, terms};
 use flap_sweep::vehicle::control::COMPONENTS;
 use serde_json::{Value, json};
 
-use super::parts::{HEADINGS, input, tidy, title};
+use super::parts::{HEADINGS, refused, tidy, title};
 use crate::args::{OutputFormat, VehicleArgs};
 use crate::cmd::point::{self, Chosen};
 use crate::console;
@@ -27,7 +28,7 @@ const UNITS: [&str; 6] = ["mN", "mN", "mN", "uN*m", "uN*m", "uN*m"];
 const NAMES: [&str; 6] = ["section", "name", "unit", "from", "to", "count"];
 
 pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Result<Exit, Failure> {
-    let inputs = inputs(args, chosen, vehicle)?;
+    let inputs = inputs(args, chosen)?;
     let options = RunOptions::with_threads(args.threads);
     let stop = system::stop();
     let mut bar = Bar::new("rows");
@@ -38,8 +39,8 @@ pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Res
     });
     bar.clear();
     let map = map.map_err(|error| match error {
-        WrenchMapError::FewSamples { .. } => refused(&format!("--samples {}", args.samples), error),
-        error => refused("--wrench-map", error),
+        WrenchMapError::Mistake(error) => refused("--wrench-map", error),
+        WrenchMapError::Run(error) => error.into(),
     })?;
     let Some(map) = map else {
         console::say("interrupted: there is no result yet");
@@ -57,10 +58,11 @@ pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Res
 }
 
 /// Returns the inputs of the map with their ranges.
-fn inputs(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Result<Vec<MapInput>, Failure> {
+fn inputs(args: &VehicleArgs, chosen: &Chosen) -> Result<Vec<MapInput>, Failure> {
     let mut inputs = Vec::new();
     for range in &args.wrench_map {
-        let input = input(vehicle, chosen, &range.name, "--wrench-map")?;
+        let input = inputs::input(&chosen.plan, &range.name);
+        let input = input.map_err(|error| refused("--wrench-map", error))?;
         let parameter = &chosen.plan.parameters()[input.parameter];
         let option = format!("--wrench-map {}=", range.name);
         let from = point::value(parameter, &option, &range.from)?;
@@ -69,16 +71,6 @@ fn inputs(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Result<Vec<
         inputs.push(MapInput::new(&input, from, to).map_err(|error| refused(&place, error))?);
     }
     Ok(inputs)
-}
-
-/// Returns the failure of a map. `place` is the option that requested the map.
-fn refused(place: &str, error: WrenchMapError) -> Failure {
-    let help = error.help();
-    let failure = match error {
-        WrenchMapError::Run(error) => return error.into(),
-        error => Failure::usage(format!("{place}: {error}")),
-    };
-    failure.helps(help)
 }
 
 /// Returns the name of a term, such as `bias^2`; `1` for the constant.
