@@ -5,7 +5,7 @@ use flap_core::simulate::{
     Interrupt, Jobs, Point, PointRun, Row, SolverSettings, TrajectoryRequest, Unfinished,
 };
 
-use super::curve::{Comparison, Curve, Step, compare, component_sizes};
+use super::curve::{Comparison, Curve, Step, compare};
 use super::run::Responses;
 use crate::plan::{Plan, sample};
 
@@ -62,13 +62,12 @@ impl Responses<'_> {
     ) -> Result<Vec<Basin>, Unfinished> {
         let Responses { plan, along } = self;
         let backend = Backend::best();
-        let sizes = component_sizes(&curve.up, &curve.down);
         let solver = SolverSettings { newton: false, ..*plan.solver() };
         let mut found = Vec::new();
-        for (up, down) in curve.up.iter().zip(&curve.down) {
+        for ((up, down), comparison) in curve.up.iter().zip(&curve.down).zip(&curve.comparisons) {
             let orbits = [up, down];
             let are_orbits = orbits.iter().all(|step| step.row.stable() == Some(true));
-            if !are_orbits || compare(&up.row, &down.row, &sizes) != Comparison::Different {
+            if !are_orbits || *comparison != Comparison::Different {
                 continue;
             }
             let values = along.values_at(plan, &curve.design, up.value);
@@ -77,7 +76,7 @@ impl Responses<'_> {
                 ranges: ranges(plan, &run, orbits)?,
                 values: &values,
                 orbits,
-                sizes: &sizes,
+                sizes: &curve.sizes,
                 starts,
                 next: 0,
                 counts: [0; 3],

@@ -8,10 +8,11 @@
 //! orbits.
 
 use flap_core::num::Backend;
-use flap_core::simulate::{Interrupt, Period, Point, PointRun, Row, SolverSettings, Status, Unfinished};
+use flap_core::simulate::{Interrupt, Period, Row, Status};
 use nalgebra::{DMatrix, DVector};
 
-use super::curve::{Comparison, Curve, Step, compare, component_sizes};
+use super::curve::{Comparison, Curve, Step};
+use super::space::OrbitSpace;
 use crate::plan::{Along, Plan};
 
 /// Initial, shortest and longest distance between neighbouring orbits. A distance of 1 corresponds to the width of the
@@ -44,16 +45,12 @@ pub(super) fn unstable(
     backend: Backend,
     interrupted: Interrupt<'_>,
 ) -> Vec<Step> {
-    let sizes = component_sizes(&curve.up, &curve.down);
     let is_bistable = |index: usize| {
         let rows = [&curve.up[index].row, &curve.down[index].row];
         rows.iter().all(|row| row.status == Status::Periodic)
-            && compare(rows[0], rows[1], &sizes) == Comparison::Different
+            && curve.comparisons[index] == Comparison::Different
     };
     let mut found = Vec::new();
-    let mut units = sizes.clone();
-    // A component that is always zero has no size.
-    units.iter_mut().filter(|size| **size == 0.0).for_each(|size| *size = 1.0);
     for last in 1..curve.up.len() {
         let ends_here = is_bistable(last) && (last + 1 == curve.up.len() || !is_bistable(last + 1));
         // The branch ends between this value and the next. Two of its orbits define the direction.
@@ -62,26 +59,10 @@ pub(super) fn unstable(
         }
         let first = (0..last).rev().take_while(|&index| is_bistable(index)).last().unwrap_or(last);
         let width = (curve.up[last].value - curve.up[first].value).max(along.tolerance);
-        let SolverSettings { rtol, atol, .. } = *plan.solver();
-        let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..*plan.solver() };
-        let design = &curve.design;
-        let branch = Branch { plan, backend, solver, along, design, sizes: &units, width, interrupted };
-        found.extend(branch.turn(&curve.up[last - 1], &curve.up[last]));
+        let space = OrbitSpace::new(plan, curve, [(along.parameter, width)], FINER, backend, interrupted);
+        found.extend(space.turn(&curve.up[last - 1], &curve.up[last]));
     }
     found
-}
-
-/// A branch of orbits, as a curve in the space of the state and the parameter. The coordinates are the state relative
-/// to its sizes, then the parameter in widths of the band.
-struct Branch<'a> {
-    plan: &'a Plan,
-    backend: Backend,
-    solver: SolverSettings,
-    along: &'a Along,
-    design: &'a Point,
-    sizes: &'a [f64],
-    width: f64,
-    interrupted: Interrupt<'a>,
 }
 
 /// An orbit on a branch.
@@ -93,11 +74,12 @@ struct Orbit {
     rhs_evals: u64,
 }
 
-impl Branch<'_> {
+/// A branch of orbits is a curve in the space with one parameter, whose unit is the width of the band.
+impl OrbitSpace<'_, 1> {
     /// Returns the orbits after `before` and `last` as long as the orbits are unstable. The list is empty if the branch
     /// does not turn.
     fn turn(&self, before: &Step, last: &Step) -> Vec<Step> {
-        let mut places = [self.place(before), self.place(last)];
+        let mut places = [before, last].map(|step| self.place(&step.row.state, [step.value]));
         let mut distance = STEPS[0];
         let mut found: Vec<Step> = Vec::new();
         for _ in 0..MOST {
@@ -110,16 +92,16 @@ impl Branch<'_> {
                 }
                 continue;
             };
-            let row = self.row(&orbit);
+            let (row, [value]) = (self.row(&orbit), self.values(&orbit.place));
             if orbit.iterations <= QUICK {
                 distance = (1.5 * distance).min(STEPS[2]);
             }
             match row.status {
-                Status::Unstable => found.push(Step { value: self.value(&orbit.place), row }),
+                Status::Unstable => found.push(Step { value, row }),
                 // The continuation has turned at the other end and reached the other branch.
                 _ if !found.is_empty() => return found,
                 // The branch continues, so the band ended for another reason.
-                _ if self.value(&orbit.place) > last.value + self.width => return found,
+                _ if value > last.value + self.units[0] => return found,
                 _ => {}
             }
             places = [places[1].clone(), orbit.place];
@@ -127,36 +109,10 @@ impl Branch<'_> {
         found
     }
 
-    fn place(&self, step: &Step) -> DVector<f64> {
-        let state = step.row.state.iter().zip(self.sizes).map(|(y, size)| y / size);
-        DVector::from_iterator(self.sizes.len() + 1, state.chain([step.value / self.width]))
-    }
-
-    fn value(&self, place: &DVector<f64>) -> f64 {
-        place[self.sizes.len()] * self.width
-    }
-
-    fn state(&self, place: &DVector<f64>) -> Vec<f64> {
-        place.iter().zip(self.sizes).map(|(y, size)| y * size).collect()
-    }
-
-    /// Returns the motion over one drive period, from a position on the branch.
-    fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
-        let values = self.along.values_at(self.plan, self.design, self.value(place));
-        if let Some(invalid) = self.plan.invalid(&values) {
-            return Err(invalid.into());
-        }
-        let state = self.state(place);
-        self.plan
-            .simulator()
-            .motions()?
-            .period(&PointRun::new(self.backend, &self.solver, &values).until(self.interrupted), &state)
-    }
-
     /// Returns the orbit nearest to `guess` on the plane through `guess` perpendicular to `direction`, by Newton's
     /// iteration.
     fn correct(&self, guess: &DVector<f64>, direction: &DVector<f64>) -> Option<Orbit> {
-        let n = self.sizes.len();
+        let n = self.states();
         let mut place = guess.clone();
         let mut rhs_evals = 0;
         for iterations in 0..SLOW {
@@ -175,10 +131,9 @@ impl Branch<'_> {
             changed[n] += CHANGE;
             let changed = self.period(&changed).ok()?;
             rhs_evals += changed.rhs_evals;
+            let monodromy = self.monodromy(&period);
             let jacobian = DMatrix::from_fn(n + 1, n + 1, |i, j| match (i < n, j < n) {
-                (true, true) => {
-                    period.responses[j][i] * self.sizes[j] / self.sizes[i] - f64::from(u8::from(i == j))
-                }
+                (true, true) => monodromy[(i, j)] - f64::from(u8::from(i == j)),
                 (true, false) => (changed.end[i] - period.end[i]) / (CHANGE * self.sizes[i]),
                 (false, _) => direction[j],
             });
@@ -188,7 +143,7 @@ impl Branch<'_> {
     }
 
     fn row(&self, orbit: &Orbit) -> Row {
-        let n = self.sizes.len();
+        let n = self.states();
         let Orbit { place, period, residual, iterations, rhs_evals } = orbit;
         let floquet_max = period.floquet_max;
         // A period with n responses counts as n + 1 periods, and each was also measured.

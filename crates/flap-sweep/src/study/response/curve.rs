@@ -28,6 +28,10 @@ pub struct Curve {
     /// end of the downward branch. Along these orbits, the parameter decreases, and may increase again where the branch
     /// turns back.
     pub unstable: Vec<Step>,
+    /// Sizes of the state's components, see [`component_sizes`].
+    pub(super) sizes: Vec<f64>,
+    /// Comparison of the motions of `up` and `down` at each value.
+    pub(super) comparisons: Vec<Comparison>,
 }
 
 /// Returns the sizes of the state's components: the largest magnitude of each component on both branches.
@@ -44,11 +48,20 @@ pub(super) fn component_sizes(up: &[Step], down: &[Step]) -> Vec<f64> {
 }
 
 impl Curve {
+    /// Returns the curve with the given branches, without unstable orbits. Both branches are in ascending order of the
+    /// parameter.
+    pub(super) fn new(design: Point, up: Vec<Step>, down: Vec<Step>) -> Curve {
+        let sizes = component_sizes(&up, &down);
+        let pairs = up.iter().zip(&down);
+        let comparisons = pairs.map(|(up, down)| compare(&up.row, &down.row, &sizes)).collect();
+        Curve { design, up, down, unstable: Vec::new(), sizes, comparisons }
+    }
+
     /// Returns the curve of a design that cannot be run.
     pub(super) fn impossible(along: &Along, design: Point, reason: &Invalid) -> Curve {
         let step = |value: &f64| Step { value: *value, row: Row::invalid(reason.clone()) };
         let up: Vec<Step> = along.values.iter().map(step).collect();
-        Curve { design, down: up.clone(), up, unstable: Vec::new() }
+        Curve::new(design, up.clone(), up)
     }
 
     /// Returns the reason why the design has no response, if the combination of its parameters is impossible at every
@@ -82,15 +95,12 @@ impl Curve {
     /// Returns for each value true if the two branches have different motions; `None` if neither motion is periodic
     /// with the drive.
     fn bistable(&self) -> Vec<Option<bool>> {
-        let sizes = component_sizes(&self.up, &self.down);
-        let pairs = self.up.iter().zip(&self.down);
-        pairs
-            .map(|(up, down)| match compare(&up.row, &down.row, &sizes) {
-                Comparison::Same => Some(false),
-                Comparison::Different => Some(true),
-                Comparison::Irregular => None,
-            })
-            .collect()
+        let bistable = |comparison: &Comparison| match comparison {
+            Comparison::Same => Some(false),
+            Comparison::Different => Some(true),
+            Comparison::Irregular => None,
+        };
+        self.comparisons.iter().map(bistable).collect()
     }
 }
 

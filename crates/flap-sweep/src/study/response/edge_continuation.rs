@@ -23,14 +23,14 @@
 //! Both folds of a band meet in a cusp, where the curve turns back in the plane of the parameters p and q.
 
 use flap_core::num::Backend;
-use flap_core::simulate::{Interrupt, Period, Point, PointRun, SolverSettings, Status, Unfinished};
+use flap_core::simulate::{Interrupt, Period, Status, Unfinished};
 use nalgebra::linalg::Schur;
 use nalgebra::{DMatrix, DVector, Dyn, LU, RowDVector};
 
-use super::curve::{Comparison, Curve, Step, compare, component_sizes};
+use super::curve::{Curve, Step};
 use super::edge::{CRITICAL, Edge, EdgeEnd, EdgeKind, EdgeMark, EdgePoint, EdgeRange, Edges, MOST};
 use super::run::Responses;
-use crate::plan::Plan;
+use super::space::OrbitSpace;
 
 /// Initial, shortest and longest distance between neighbouring points of an edge. A distance of 1 corresponds to about
 /// the range of a parameter, and to the largest magnitude of a state component.
@@ -72,33 +72,17 @@ impl Responses<'_> {
     /// If the computation is interrupted, the edges are incomplete.
     pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {
         let Responses { plan, along } = self;
-        let compared = component_sizes(&curve.up, &curve.down);
-        let mut sizes = compared.clone();
-        // A component that is always zero has no size.
-        sizes.iter_mut().filter(|size| **size == 0.0).for_each(|size| *size = 1.0);
-        let SolverSettings { rtol, atol, .. } = *plan.solver();
-        let solver = SolverSettings { rtol: FINER * rtol, atol: FINER * atol, ..*plan.solver() };
         let range = [along.values[0], along.values[along.values.len() - 1]];
         let ranges = [range, second.range];
+        let [one, other] = ranges.map(|[from, to]| power_of_two(to - from));
+        let parameters = [(along.parameter, one), (second.parameter, other)];
         let plane = |kind| Plane {
-            plan,
-            backend: Backend::best(),
-            solver,
-            design: &curve.design,
-            parameters: [along.parameter, second.parameter],
+            space: OrbitSpace::new(plan, curve, parameters, FINER, Backend::best(), interrupted),
             ranges,
-            sizes: &sizes,
-            units: ranges.map(|[from, to]| power_of_two(to - from)),
-            converged: CONVERGED * rtol,
+            converged: CONVERGED * plan.solver().rtol,
             kind,
-            interrupted,
         };
-        let comparisons: Vec<Comparison> = curve
-            .up
-            .iter()
-            .zip(&curve.down)
-            .map(|(up, down)| compare(&up.row, &down.row, &compared))
-            .collect();
+        let comparisons = &curve.comparisons;
         let mut found = Edges { edges: Vec::new(), missed: Vec::new() };
         // The points of the continuation for each of these edges.
         let mut traces: Vec<Vec<DVector<f64>>> = Vec::new();
@@ -140,21 +124,14 @@ fn is_on(trace: &[DVector<f64>], point: &DVector<f64>) -> bool {
     })
 }
 
-/// The space in which an edge is a curve. The coordinates are the state relative to its sizes, then the two parameters
-/// relative to about the widths of their ranges.
+/// The plane of two parameters, with the equations of an edge of one kind.
 struct Plane<'a> {
-    plan: &'a Plan,
-    backend: Backend,
-    solver: SolverSettings,
-    design: &'a Point,
-    parameters: [usize; 2],
+    /// The space in which the edge is a curve. The units of the parameters are about the widths of their ranges.
+    space: OrbitSpace<'a, 2>,
     ranges: [[f64; 2]; 2],
-    sizes: &'a [f64],
-    units: [f64; 2],
     /// Length of a step of Newton's iteration after which the iteration has converged.
     converged: f64,
     kind: EdgeKind,
-    interrupted: Interrupt<'a>,
 }
 
 /// A solution of the equations.
@@ -169,64 +146,28 @@ struct Solution {
 }
 
 impl Plane<'_> {
-    /// Returns the number of states.
-    fn states(&self) -> usize {
-        self.sizes.len()
-    }
-
-    fn values(&self, place: &DVector<f64>) -> [f64; 2] {
-        [0, 1].map(|k| place[self.states() + k] * self.units[k])
-    }
-
-    fn state(&self, place: &DVector<f64>) -> Vec<f64> {
-        place.iter().zip(self.sizes).map(|(y, size)| y * size).collect()
-    }
-
     /// Returns the unit vector of the parameter `k`.
     fn axis(&self, k: usize) -> DVector<f64> {
-        let mut axis = DVector::zeros(self.states() + 2);
-        axis[self.states() + k] = 1.0;
+        let mut axis = DVector::zeros(self.space.states() + 2);
+        axis[self.space.states() + k] = 1.0;
         axis
-    }
-
-    /// Returns one value per parameter of the model.
-    fn parameter_values(&self, place: &DVector<f64>) -> Vec<f64> {
-        let mut values = self.design.values.clone();
-        for (parameter, value) in self.parameters.into_iter().zip(self.values(place)) {
-            values[parameter] = value;
-        }
-        self.plan.derived().fill(&mut values, &[]);
-        values
     }
 
     /// Returns the residuals of the equations at a point of the edge, with the drive period that begins at this point.
     fn residual(&self, place: &DVector<f64>) -> Result<(DVector<f64>, Period), EdgeEnd> {
-        let values = self.parameter_values(place);
-        if let Some(invalid) = self.plan.invalid(&values) {
-            return Err(EdgeEnd::Unfinished(invalid.into()));
-        }
-        let run = PointRun::new(self.backend, &self.solver, &values).until(self.interrupted);
-        let period = (self.plan.simulator().motions())
-            .and_then(|motions| motions.period(&run, &self.state(place)))
-            .map_err(EdgeEnd::Unfinished)?;
-        let n = self.states();
-        let monodromy = self.monodromy(&period);
+        let period = self.space.period(place).map_err(EdgeEnd::Unfinished)?;
+        let n = self.space.states();
+        let monodromy = self.space.monodromy(&period);
         let residual = DVector::from_fn(n + 1, |i, _| match i {
-            i if i < n => period.end[i] / self.sizes[i] - place[i],
+            i if i < n => period.end[i] / self.space.sizes[i] - place[i],
             _ => test(self.kind, &monodromy),
         });
         Ok((residual, period))
     }
 
-    /// Returns the monodromy matrix in units of the sizes of the states.
-    fn monodromy(&self, period: &Period) -> DMatrix<f64> {
-        let n = self.states();
-        DMatrix::from_fn(n, n, |i, j| period.responses[j][i] * self.sizes[j] / self.sizes[i])
-    }
-
     /// Returns the derivatives of the residuals by central differences.
     fn jacobian(&self, place: &DVector<f64>) -> Result<DMatrix<f64>, EdgeEnd> {
-        let n = self.states();
+        let n = self.space.states();
         let mut jacobian = DMatrix::zeros(n + 1, n + 2);
         for j in 0..n + 2 {
             let changed = |change: f64| {
@@ -249,11 +190,11 @@ impl Plane<'_> {
     ) -> Result<Solution, EdgeEnd> {
         let jacobian = self.jacobian(&place)?;
         let (_, period) = self.residual(&place)?;
-        if self.kind == EdgeKind::Torus && !has_pair_of_modulus_one(&self.monodromy(&period)) {
+        if self.kind == EdgeKind::Torus && !has_pair_of_modulus_one(&self.space.monodromy(&period)) {
             return Err(EdgeEnd::Resonance);
         }
-        let mut last = DVector::zeros(self.states() + 2);
-        last[self.states() + 1] = 1.0;
+        let mut last = DVector::zeros(self.space.states() + 2);
+        last[self.space.states() + 1] = 1.0;
         let tangent = bordered(&jacobian, direction).solve(&last).ok_or(EdgeEnd::Unconverged)?.normalize();
         Ok(Solution { place, period, jacobian, tangent, iterations })
     }
@@ -298,7 +239,7 @@ impl Plane<'_> {
 
     /// Returns the point of the edge near these motions, which are the neighbours of the end of a band.
     fn start(&self, motions: &[&Step], second: &EdgeRange) -> Option<Solution> {
-        let value = self.design.values[second.parameter];
+        let value = self.space.design.values[second.parameter];
         let periodic = motions.iter().filter(|step| step.row.status == Status::Periodic);
         let mut periodic: Vec<&&Step> = periodic.collect();
         // The motion nearest to the loss of its stability first.
@@ -306,11 +247,8 @@ impl Plane<'_> {
         let [low, high] = [motions[0].value, motions[motions.len() - 1].value];
         let near = (2.0 * low - high)..=(2.0 * high - low);
         periodic.into_iter().find_map(|step| {
-            let state = step.row.state.iter().zip(self.sizes).map(|(y, size)| y / size);
-            let parameters = [step.value / self.units[0], value / self.units[1]];
-            let guess = DVector::from_iterator(self.states() + 2, state.chain(parameters));
-            let start = self.solve_at(1, guess).ok()?;
-            let is_near = near.contains(&self.values(&start.place)[0]);
+            let start = self.solve_at(1, self.space.place(&step.row.state, [step.value, value])).ok()?;
+            let is_near = near.contains(&self.space.values(&start.place)[0]);
             (is_near && start.period.floquet_max <= CRITICAL).then_some(start)
         })
     }
@@ -358,10 +296,10 @@ impl Plane<'_> {
             found.extend(marked.map(|(point, mark)| (point, Some(mark))));
             if let Some((k, limit)) = self.outside(&next.place) {
                 // The edge may begin at the limit.
-                if (self.values(&last.place)[k] - limit).abs() > 1e-9 * limit.abs() {
+                if (self.space.values(&last.place)[k] - limit).abs() > 1e-9 * limit.abs() {
                     found.extend(self.between(k, limit, &last, &next).map(|end| (end, None)));
                 }
-                return (found, EdgeEnd::Range(self.parameters[k]));
+                return (found, EdgeEnd::Range(self.space.parameters[k]));
             }
             if found.len() > 3 && is_on(&[last.place.clone(), next.place.clone()], &start.place) {
                 found.push((start.clone(), None));
@@ -378,16 +316,18 @@ impl Plane<'_> {
 
     /// Returns the first parameter outside of its range, with the limit that the parameter exceeds.
     fn outside(&self, place: &DVector<f64>) -> Option<(usize, f64)> {
-        self.values(place).into_iter().zip(self.ranges).enumerate().find_map(|(k, (value, [from, to]))| {
-            let limit = value.clamp(from, to);
-            (limit != value).then_some((k, limit))
-        })
+        self.space.values(place).into_iter().zip(self.ranges).enumerate().find_map(
+            |(k, (value, [from, to]))| {
+                let limit = value.clamp(from, to);
+                (limit != value).then_some((k, limit))
+            },
+        )
     }
 
     /// Returns the point between two points with a given value of the parameter `k`.
     fn between(&self, k: usize, value: f64, one: &Solution, other: &Solution) -> Option<Solution> {
-        let place = self.states() + k;
-        let scaled = value / self.units[k];
+        let place = self.space.states() + k;
+        let scaled = value / self.space.units[k];
         let share = (scaled - one.place[place]) / (other.place[place] - one.place[place]);
         let mut guess = &one.place + (&other.place - &one.place) * share;
         guess[place] = scaled;
@@ -401,7 +341,7 @@ impl Plane<'_> {
     /// If the edge turns back along the second parameter, the tangent has no component along this parameter. At a cusp
     /// of a fold, the tangent has no components along both parameters, and both components change their sign.
     fn marked(&self, last: &Solution, next: &Solution) -> Option<(Solution, EdgeMark)> {
-        let n = self.states();
+        let n = self.space.states();
         let parameters = |solution: &Solution| solution.tangent.rows(n, 2).into_owned();
         let (before, after) = (parameters(last), parameters(next));
         let (mark, direction) = if self.kind == EdgeKind::Fold && before.dot(&after) < 0.0 {
@@ -443,7 +383,7 @@ impl Plane<'_> {
         step: f64,
     ) -> Vec<(Solution, Option<EdgeMark>)> {
         let from = self.ranges[1][0];
-        let number = |solution: &Solution| (self.values(&solution.place)[1] - from) / step;
+        let number = |solution: &Solution| (self.space.values(&solution.place)[1] - from) / step;
         let last = points.len() - 1;
         let mut found = Vec::new();
         for (i, (solution, mark)) in points.iter().enumerate() {
@@ -471,9 +411,15 @@ impl Plane<'_> {
     fn point(&self, solution: &Solution, mark: Option<EdgeMark>) -> EdgePoint {
         let Solution { place, period, .. } = solution;
         let mut measures = period.measures.clone();
-        self.plan.add_own_measures(&self.parameter_values(place), &mut measures);
+        self.space.plan.add_own_measures(&self.space.model_values(place), &mut measures);
         let floquet_max = period.floquet_max;
-        EdgePoint { values: self.values(place), mark, state: self.state(place), measures, floquet_max }
+        EdgePoint {
+            values: self.space.values(place),
+            mark,
+            state: self.space.state(place),
+            measures,
+            floquet_max,
+        }
     }
 }
 

@@ -58,7 +58,7 @@ impl<'a> Follow<'a> {
         for way in [&mut self.up, &mut self.down] {
             way.sort_by(|a, b| a.value.total_cmp(&b.value));
         }
-        Curve { design: self.design, up: self.up, down: self.down, unstable: Vec::new() }
+        Curve::new(self.design, self.up, self.down)
     }
 
     /// Returns the point at `value`, which begins at the final state of `from`.

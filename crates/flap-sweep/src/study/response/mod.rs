@@ -7,6 +7,7 @@
 //! - `along`: values of the parameter that rises and falls.
 //! - `curve`: response of one design, its rows, and the comparison of its motions at the same drive.
 //! - `follow`: one curve, with the upward and the downward branch and the ends of the bistable bands.
+//! - `space`: space of states and parameters in which continuations follow curves of orbits.
 //! - `continuation`: unstable orbits that connect the branches of a bistable band.
 //! - `basin`: fractions of initial states whose motions settle on each branch.
 //! - `edge`: ends of bands in the plane of two parameters, with rows and a summary.
@@ -22,6 +23,7 @@ mod edge;
 mod edge_continuation;
 mod follow;
 mod run;
+mod space;
 mod verdict;
 
 pub use crate::plan::Along;

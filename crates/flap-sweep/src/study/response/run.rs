@@ -65,7 +65,7 @@ impl<'a> Responses<'a> {
         if along.unstable {
             curve.unstable = continuation::unstable(plan, along, &curve, backend, interrupted);
         }
-        let Curve { design, up, down, unstable } = &mut curve;
+        let Curve { design, up, down, unstable, .. } = &mut curve;
         for Step { value, row } in up.iter_mut().chain(down).chain(unstable) {
             plan.add_own_measures(&along.values_at(plan, design, *value), &mut row.measures);
         }

@@ -6,7 +6,7 @@ use std::mem::discriminant;
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Row, Status};
 
-use super::curve::{Comparison, Curve, compare, component_sizes};
+use super::curve::{Comparison, Curve};
 use crate::plan::Along;
 use crate::table::labels::{self, Scale};
 
@@ -72,13 +72,12 @@ impl Verdict {
             bands: Vec::new(),
             invalid: curve.invalid().map(str::to_owned),
         };
-        let sizes = component_sizes(&curve.up, &curve.down);
         let stroke_pp = |row: &Row| row.measures.get(stroke).map(|amplitude| 2.0 * amplitude);
         let mut open = false;
-        for (up, down) in curve.up.iter().zip(&curve.down) {
+        for ((up, down), comparison) in curve.up.iter().zip(&curve.down).zip(&curve.comparisons) {
             let strokes = stroke_pp(&up.row).zip(stroke_pp(&down.row));
             let difference = strokes.map(|(up, down)| (up - down).abs());
-            let kind = match compare(&up.row, &down.row, &sizes) {
+            let kind = match comparison {
                 Comparison::Same => {
                     verdict.difference = verdict.difference.max(difference.unwrap_or(0.0));
                     open = false;
