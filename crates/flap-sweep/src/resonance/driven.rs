@@ -7,7 +7,6 @@ use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, PointRun, Row, Simulator, Status, Unfinished, run_list};
 
 use super::search::{Found, Peaks, Search, Seen};
-use super::sequence::PointSequence as _;
 use super::target::{Objective, Range, Target, has_prescribed_stroke, prescribed};
 use crate::notation::UserError;
 
@@ -81,20 +80,16 @@ pub fn search(
         .ok_or_else(|| lacks("has no drive frequency or measures no stroke"))?;
     let pitch = model.columns().iter().position(|column| column.name == "pitch_amplitude_deg");
     let pitch = pitch.ok_or_else(|| lacks("measures no pitch"))?;
-    let mut design = Search::new(&target, Point::at_rest(0, values.to_vec()), Peaks::ALL);
-    loop {
-        let mut probes = design.probes();
-        if probes.is_empty() {
-            break;
-        }
-        let invalid: Vec<_> = probes.iter_mut().map(|probe| update(&mut probe.values)).collect();
-        let possible = probes.into_iter().zip(&invalid).filter(|(_, invalid)| invalid.is_none());
-        let possible = possible.map(|(probe, _)| probe).collect();
+    let search = Search::new(&target, Point::at_rest(0, values.to_vec()), Peaks::ALL);
+    let searched = search.sequence().run(|mut points| {
+        let invalid: Vec<_> = points.iter_mut().map(|point| update(&mut point.values)).collect();
+        let possible = points.into_iter().zip(&invalid).filter(|(_, invalid)| invalid.is_none());
+        let possible = possible.map(|(point, _)| point).collect();
         let mut rows = run_list(model, backend, solver, possible, interrupted)?.into_iter();
         let row = |invalid: Option<Invalid>| invalid.map(Row::invalid).or_else(|| rows.next());
-        design.take(invalid.into_iter().filter_map(row).collect());
-    }
-    let (found, seen) = design.into_peaks()?;
+        Ok::<_, Unfinished>(invalid.into_iter().filter_map(row).collect())
+    });
+    let (found, seen) = searched?.into_peaks()?;
     Ok(peaks(&found, &seen, tolerance, [target.objective, pitch]))
 }
 

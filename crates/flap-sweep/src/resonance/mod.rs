@@ -5,7 +5,7 @@
 //!   motions.
 //! - `search`: search for the resonance and for all peaks, and for the maximum of one peak.
 //! - `target`: quantity to maximise, and range of the search.
-//! - [`sequence`]: points that are chosen one after another, depending on the rows of earlier points.
+//! - [`sequence`]: computations that wait for rows, which determine the next points.
 
 pub mod driven;
 mod rows;

@@ -5,7 +5,7 @@ use flap_core::num::Backend;
 use flap_core::simulate::{Column, Jobs, Point, PointRun, Row, Rows, Simulator, SolverSettings};
 
 use super::search::{Peaks, Search};
-use super::sequence::{self, SequenceSource};
+use super::sequence::{self, Sequence, SequenceSource};
 use super::target::{Objective, Range, Target, places};
 
 /// A model whose rows are computed at the resonance of each design. The drive frequency of a point is ignored.
@@ -88,9 +88,8 @@ impl Rows for AtResonance {
     /// The search for a resonance begins at rest, so `begin` is ignored.
     fn run_point(&self, run: &PointRun<'_>, _begin: Option<&[f64]>) -> Row {
         let design = Point::at_rest(0, run.values.to_vec());
-        let mut search = Search::new(&self.target, design, Peaks::HIGHEST);
-        sequence::run_one(self.target.model, run, &mut search);
-        search.into_row().1
+        let search = Search::new(&self.target, design, Peaks::HIGHEST);
+        search.sequence().run_alone(self.target.model, run).into_row().1
     }
 }
 
@@ -100,11 +99,11 @@ struct Designs<'a> {
     jobs: &'a mut dyn Jobs,
 }
 
-impl<'a> SequenceSource for Designs<'a> {
-    type Sequence = Search<'a>;
+impl<'a> SequenceSource<'a> for Designs<'a> {
+    type Output = Search<'a>;
 
-    fn next(&mut self, idle: bool) -> Option<Search<'a>> {
-        Some(Search::new(&self.at.target, self.jobs.next(idle)?, Peaks::HIGHEST))
+    fn next(&mut self, idle: bool) -> Option<Sequence<'a, Search<'a>>> {
+        Some(Search::new(&self.at.target, self.jobs.next(idle)?, Peaks::HIGHEST).sequence())
     }
 
     fn done(&mut self, search: Search<'a>) {

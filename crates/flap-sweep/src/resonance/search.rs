@@ -10,7 +10,7 @@
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status, Unfinished};
 
-use super::sequence::PointSequence;
+use super::sequence::{Exchange, Sequence};
 use super::target::Target;
 
 /// Ratio of neighbouring frequencies of the grid, minus one. A peak of quality Q has a relative width of 1/Q.
@@ -54,27 +54,14 @@ pub(super) struct Search<'a> {
     peaks: Peaks,
     /// Lowest and highest frequency (Hz), or the reason why a search is impossible.
     ends: Result<[f64; 2], Unfinished>,
-    stage: Stage,
     /// All points that were run.
     seen: Vec<Seen>,
-    /// Frequencies of the latest points (Hz).
-    asked: Vec<f64>,
     cycles: u32,
     rhs_evals: u64,
+    /// Located peaks, each `[frequency, value]`, beginning with the highest peak.
+    tops: Vec<[f64; 2]>,
     /// Rows of the peaks that were run from rest; without a peak, the row of another point.
     rows: Vec<Row>,
-}
-
-/// Stage of a search.
-enum Stage {
-    /// Running the grid.
-    Grid,
-    /// Locating peaks. Each peak with an index in `asking` waits for one value.
-    Tops { tops: Vec<Maximum>, asking: Vec<usize>, from_rest: bool },
-    /// The search runs the highest of the peaks `tops`, each `[frequency, value]`, from rest.
-    Last { tops: Vec<[f64; 2]>, from_rest: bool },
-    /// The search has ended.
-    Done { tops: Vec<[f64; 2]> },
 }
 
 /// A point that the search has run.
@@ -104,29 +91,30 @@ impl<'a> Search<'a> {
             point,
             peaks,
             ends,
-            stage: Stage::Grid,
             seen: Vec::new(),
-            asked: Vec::new(),
             cycles: 0,
             rhs_evals: 0,
+            tops: Vec::new(),
             rows: Vec::new(),
         }
     }
 
-    /// Returns the index of the design and the row of the design.
+    /// Returns the computation of the search.
+    pub(super) fn sequence(self) -> Sequence<'a, Search<'a>> {
+        Sequence::new(|exchange| async move { self.run(&exchange).await })
+    }
+
+    /// Returns the index of the design and the row of the design, after the search.
     pub(super) fn into_row(mut self) -> (u64, Row) {
         let index = self.point.index;
-        let first = (!self.rows.is_empty()).then(|| self.rows.swap_remove(0));
-        let mut row = match (first, &self.ends) {
-            (Some(row), _) => row,
-            (None, Err(error)) => Row::invalid(error),
-            (None, Ok(_)) => Row::invalid("the search for its resonance was interrupted"),
+        let mut row = match &self.ends {
+            Err(error) => Row::invalid(error),
+            Ok(_) => self.rows.swap_remove(0),
         };
-        if let (Stage::Done { tops }, Ok([from, to]), Status::Periodic) =
-            (&self.stage, &self.ends, row.status)
-            && let Some(&[frequency, best]) = tops.first()
+        if let (Ok([from, to]), Status::Periodic) = (&self.ends, row.status)
+            && let Some(&[frequency, best]) = self.tops.first()
         {
-            let second = tops[1..].iter().find(|top| best - top[1] <= SECOND * best.abs());
+            let second = self.tops[1..].iter().find(|top| best - top[1] <= SECOND * best.abs());
             let margin = (frequency - from).min(to - frequency);
             let gaps = self.seen.iter().filter(|seen| seen.state.is_none()).count();
             row.measures.extend([
@@ -142,23 +130,22 @@ impl<'a> Search<'a> {
         (index, row)
     }
 
-    /// Returns the result of the search and all points that were run.
+    /// Returns the peaks and all points that were run, after the search.
     ///
     /// # Errors
     /// An error if the design is impossible, or has no range of frequencies to search.
     pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), Unfinished> {
         let ends = self.ends?;
-        let peaks = match self.stage {
-            Stage::Done { tops } if !tops.is_empty() => tops.into_iter().zip(self.rows).collect(),
-            _ => match self.rows.into_iter().find_map(|row| row.reason) {
-                Some(reason) => return Err(Invalid::new(reason).into()),
-                None => Vec::new(),
-            },
-        };
+        if self.tops.is_empty()
+            && let Some(reason) = self.rows.iter().find_map(|row| row.reason.clone())
+        {
+            return Err(Invalid::new(reason).into());
+        }
+        let peaks = self.tops.into_iter().zip(self.rows).collect();
         Ok((Found { ends, peaks }, self.seen))
     }
 
-    fn probe(&self, frequency: f64, begin: Option<Vec<f64>>) -> Point {
+    fn point_at(&self, frequency: f64, begin: Option<Vec<f64>>) -> Point {
         let mut values = self.point.values.clone();
         values[self.target.frequency] = frequency;
         Point { begin, ..Point::at_rest(0, values) }
@@ -200,99 +187,84 @@ impl<'a> Search<'a> {
         tops.into_iter().map(|(_, points)| Maximum::new(points, self.target.range.tolerance)).collect()
     }
 
-    /// Continues to locate peaks, or runs the last points if all peaks are located.
-    fn locate(&mut self, mut tops: Vec<Maximum>, from_rest: bool) -> Stage {
-        let mut asking = Vec::new();
-        for (index, top) in tops.iter_mut().enumerate() {
-            if let Some(frequency) = top.next() {
-                asking.push(index);
-                self.asked.push(frequency);
-            }
+    /// Runs the search.
+    async fn run(mut self, exchange: &Exchange) -> Search<'a> {
+        let Ok(ends) = self.ends else { return self };
+        let grid = grid(ends);
+        let rows = self.rows(exchange, &grid, true).await;
+        if self.tops(grid.len()).is_empty() {
+            // The row has the status of a motion that is not periodic.
+            let row = rows.into_iter().find(|row| row.status != Status::Periodic);
+            self.rows = vec![row.unwrap_or_else(|| {
+                Row::invalid(
+                    "the quantity whose peak is the resonance is undefined at all frequencies from `from` to `to`",
+                )
+            })];
+            return self;
         }
-        if !asking.is_empty() {
-            return Stage::Tops { tops, asking, from_rest };
-        }
-        let mut tops: Vec<[f64; 2]> = tops.iter().map(Maximum::best).collect();
-        tops.sort_by(|a, b| b[1].total_cmp(&a[1]));
-        self.asked = tops.iter().take(self.peaks.from_rest).map(|top| top[0]).collect();
-        Stage::Last { tops, from_rest }
-    }
-
-    /// Continues the search with the latest rows.
-    fn go_on(&mut self, rows: Vec<Row>) -> Stage {
-        let asked = std::mem::take(&mut self.asked);
-        match std::mem::replace(&mut self.stage, Stage::Grid) {
-            Stage::Grid => {
-                let tops = self.tops(asked.len());
-                if tops.is_empty() {
-                    // The row has the status of a motion that is not periodic.
-                    let row = rows.into_iter().find(|row| row.status != Status::Periodic);
-                    self.rows = vec![row.unwrap_or_else(|| {
-                        Row::invalid(
-                            "the quantity whose peak is the resonance is undefined at all frequencies from `from` to `to`",
-                        )
-                    })];
-                    return Stage::Done { tops: Vec::new() };
-                }
-                self.locate(tops, false)
-            }
-            Stage::Tops { mut tops, asking, from_rest } => {
-                let answers = &self.seen[self.seen.len() - asked.len()..];
-                for (index, answer) in asking.into_iter().zip(answers) {
-                    tops[index].take(answer.frequency, answer.value);
-                }
-                self.locate(tops, from_rest)
-            }
-            Stage::Last { mut tops, from_rest } => {
-                let answers = &self.seen[self.seen.len() - asked.len()..];
-                let is_same =
-                    |(top, found): (&[f64; 2], &Seen)| (found.value - top[1]).abs() <= SAME * top[1].abs();
-                if !tops.iter().zip(answers).all(is_same) && !from_rest {
-                    let tops = self.tops(self.grid().len());
-                    return self.locate(tops, true);
-                }
+        let mut from_rest = false;
+        loop {
+            let mut tops = self.locate(exchange, grid.len(), from_rest).await;
+            let frequencies: Vec<f64> = tops.iter().take(self.peaks.from_rest).map(|top| top[0]).collect();
+            self.rows = self.rows(exchange, &frequencies, true).await;
+            let answers = self.latest(&frequencies);
+            let is_same =
+                |(top, found): (&[f64; 2], &Seen)| (found.value - top[1]).abs() <= SAME * top[1].abs();
+            if from_rest || tops.iter().zip(answers).all(is_same) {
                 for (top, found) in tops.iter_mut().zip(answers) {
                     top[1] = found.value;
                 }
-                self.rows = rows;
-                Stage::Done { tops }
+                self.tops = tops;
+                return self;
             }
-            done @ Stage::Done { .. } => done,
+            from_rest = true;
         }
     }
 
-    /// Returns the frequencies of the grid (Hz), with a constant ratio.
-    fn grid(&self) -> Vec<f64> {
-        let Ok([from, to]) = self.ends else { return Vec::new() };
-        let span = libm::log(to / from);
-        let intervals = (span / SPACING).ceil().clamp(INTERVALS[0], INTERVALS[1]);
-        let frequency = |i: u32| from * libm::exp(span * (f64::from(i) / intervals));
-        let inner = (1..).take_while(|&i| f64::from(i) < intervals).map(frequency);
-        std::iter::once(from).chain(inner).chain([to]).collect()
+    /// Locates the peaks of the grid. Returns `[frequency, value]` of each peak, beginning with the highest peak.
+    async fn locate(&mut self, exchange: &Exchange, grid: usize, from_rest: bool) -> Vec<[f64; 2]> {
+        let mut tops = self.tops(grid);
+        loop {
+            let asking = tops.iter_mut().filter_map(|top| top.next().map(|frequency| (top, frequency)));
+            let (asking, frequencies): (Vec<&mut Maximum>, Vec<f64>) = asking.unzip();
+            if asking.is_empty() {
+                break;
+            }
+            self.rows(exchange, &frequencies, from_rest).await;
+            for (top, answer) in asking.into_iter().zip(self.latest(&frequencies)) {
+                top.take(answer.frequency, answer.value);
+            }
+        }
+        let mut tops: Vec<[f64; 2]> = tops.iter().map(Maximum::best).collect();
+        tops.sort_by(|a, b| b[1].total_cmp(&a[1]));
+        tops
+    }
+
+    /// Runs points at the given frequencies and returns their rows. The points begin at rest, or at the nearest known
+    /// orbit.
+    async fn rows(&mut self, exchange: &Exchange, frequencies: &[f64], from_rest: bool) -> Vec<Row> {
+        let begin = |frequency| if from_rest { None } else { self.nearest_state(frequency) };
+        let points = frequencies.iter().map(|&frequency| self.point_at(frequency, begin(frequency)));
+        let rows = exchange.rows(points.collect()).await;
+        for (&frequency, row) in frequencies.iter().zip(&rows) {
+            self.note(frequency, row);
+        }
+        rows
+    }
+
+    /// Returns the points that were run last, at the given frequencies.
+    fn latest(&self, frequencies: &[f64]) -> &[Seen] {
+        &self.seen[self.seen.len() - frequencies.len()..]
     }
 }
 
-impl PointSequence for Search<'_> {
-    fn probes(&mut self) -> Vec<Point> {
-        let from_rest = match self.stage {
-            Stage::Grid => {
-                self.asked = self.grid();
-                true
-            }
-            Stage::Tops { from_rest, .. } => from_rest,
-            Stage::Last { .. } => true,
-            Stage::Done { .. } => return Vec::new(),
-        };
-        let begin = |frequency| if from_rest { None } else { self.nearest_state(frequency) };
-        self.asked.iter().map(|&frequency| self.probe(frequency, begin(frequency))).collect()
-    }
-
-    fn take(&mut self, rows: Vec<Row>) {
-        for (frequency, row) in self.asked.clone().into_iter().zip(&rows) {
-            self.note(frequency, row);
-        }
-        self.stage = self.go_on(rows);
-    }
+/// Returns the frequencies of the grid (Hz) between two frequencies, with a constant ratio.
+fn grid([from, to]: [f64; 2]) -> Vec<f64> {
+    let span = libm::log(to / from);
+    let intervals = (span / SPACING).ceil().clamp(INTERVALS[0], INTERVALS[1]);
+    let frequency = |i: u32| from * libm::exp(span * (f64::from(i) / intervals));
+    let inner = (1..).take_while(|&i| f64::from(i) < intervals).map(frequency);
+    std::iter::once(from).chain(inner).chain([to]).collect()
 }
 
 /// Returns the maximum of the parabola through three points, or the middle value if the parabola has no maximum.

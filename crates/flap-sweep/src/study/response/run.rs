@@ -9,7 +9,7 @@ use super::continuation;
 use super::curve::{Curve, Step};
 use super::follow::Follow;
 use crate::plan::{Admission, Along, Plan};
-use crate::resonance::sequence::{self, SequenceSource};
+use crate::resonance::sequence::{self, Sequence, SequenceSource};
 use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
 /// Smallest and largest number of curves per thread ahead of the last returned curve.
@@ -51,10 +51,10 @@ impl<'a> Responses<'a> {
     /// Returns the response of one design, computed on scalars with the same bits as [`Responses::curves`].
     pub fn curve(self, design: Point) -> Curve {
         let backend = Backend::best();
-        let mut follow = Follow::new(self.plan, self.along, design);
         let run = PointRun::new(backend, self.plan.solver(), &[]);
-        sequence::run_one(self.plan.simulator(), &run, &mut follow);
-        self.complete(follow.finish(), backend, &never)
+        let follow = Follow::new(self.plan, self.along, design);
+        let curve = follow.sequence().run_alone(self.plan.simulator(), &run);
+        self.complete(curve, backend, &never)
     }
 
     /// Adds the unstable orbits to a curve, if requested, and adds the measures of the plan to all rows of the curve.
@@ -96,16 +96,16 @@ struct Designs<'a, 'w, 'q> {
     worker: &'w mut Worker<'q, Outcome<Curve>>,
 }
 
-impl<'a> SequenceSource for Designs<'a, '_, '_> {
-    type Sequence = Follow<'a>;
+impl<'a> SequenceSource<'a> for Designs<'a, '_, '_> {
+    type Output = Curve;
 
-    fn next(&mut self, idle: bool) -> Option<Follow<'a>> {
+    fn next(&mut self, idle: bool) -> Option<Sequence<'a, Curve>> {
         let Responses { plan, along } = self.responses;
         loop {
             let position = self.worker.next(idle)?;
             let design = plan.selected_point(position);
             match along.judge(plan, &design) {
-                Admission::Runs => return Some(Follow::new(plan, along, design)),
+                Admission::Runs => return Some(Follow::new(plan, along, design).sequence()),
                 Admission::Excluded(unsatisfied) => {
                     self.worker.done(position, Outcome::Excluded(unsatisfied));
                 }
@@ -117,8 +117,7 @@ impl<'a> SequenceSource for Designs<'a, '_, '_> {
         }
     }
 
-    fn done(&mut self, follow: Follow<'a>) {
-        let curve = follow.finish();
+    fn done(&mut self, curve: Curve) {
         let measures = self.responses.plan.simulator().columns().len();
         let mut rows = curve.up.iter().chain(&curve.down).map(|step| &step.row);
         if let Some(row) = rows.find(|row| row.measures.len() != expected(row, measures)) {
