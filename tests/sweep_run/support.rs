@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use flap_sweep::files::csv_sink::CsvSink;
 use flap_sweep::plan::Plan;
-use flap_sweep::run::{self, Progress, RowWriter, RunError, RunOptions, Sink, Summary};
+use flap_sweep::run::{Progress, RowWriter, RunError, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::{Cell, Layout};
 
 use crate::fake::Fake;
@@ -71,26 +71,10 @@ pub(crate) fn resume(
     progress: &mut dyn FnMut(Progress),
 ) -> Result<Summary, RunError> {
     let mut output = RowWriter::begin(plan, before, sink)?;
-    let mut pull = || {
-        loop {
-            let mut run = run::rows(output.plan(), options, output.done());
-            loop {
-                if stop.load(Ordering::SeqCst) {
-                    run.stop();
-                }
-                let Some(batch) = run.next_batch()? else { break };
-                for row in &batch {
-                    output.write(row)?;
-                }
-                output.flush()?;
-                progress(run.progress());
-            }
-            if stop.load(Ordering::SeqCst) || !output.next_round() {
-                return Ok(());
-            }
-        }
-    };
-    let ended = pull();
+    let ended = output.run_points(options, |now| {
+        progress(now);
+        stop.load(Ordering::SeqCst)
+    });
     output.finish(ended)
 }
 

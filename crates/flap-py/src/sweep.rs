@@ -162,37 +162,12 @@ fn work(
         // A resumed refinement may already have points without rows.
         let has_round = chunks.is_none() || output.done() < output.plan().selected();
         if !is_left && (has_round || output.next_round()) {
-            run_rounds(options, &mut output, watch)
+            output.run_points(options, |progress| watch.stops(progress))
         } else {
             Ok(())
         }
     });
     output.finish(ended)
-}
-
-/// Runs the points in this process, and the points that the refinement of the plan adds.
-fn run_rounds(options: &RunOptions, output: &mut RowWriter<'_>, watch: &mut Watch) -> Result<(), RunError> {
-    loop {
-        run_here(options, output, watch)?;
-        if watch.is_stopped() || !output.next_round() {
-            return Ok(());
-        }
-    }
-}
-
-/// Runs the points in this process, until the interpreter interrupts the run.
-fn run_here(options: &RunOptions, output: &mut RowWriter<'_>, watch: &mut Watch) -> Result<(), RunError> {
-    let mut run = run::rows(output.plan(), options, output.done());
-    while let Some(batch) = run.next_batch()? {
-        for row in &batch {
-            output.write(row)?;
-        }
-        output.flush()?;
-        if watch.stops(run.progress()) {
-            run.stop();
-        }
-    }
-    Ok(())
 }
 
 /// Takes the rows of other processes, until there are no more rows or the interpreter interrupts the run.

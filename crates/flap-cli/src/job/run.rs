@@ -10,7 +10,7 @@ use flap_sweep::files::job::{self, Begun, Done, Job, OnExisting};
 use flap_sweep::files::session::SessionOptions;
 use flap_sweep::files::sidecar::Origin;
 use flap_sweep::plan::Plan;
-use flap_sweep::run::{self, Outcome, RowWriter, Run, RunError, RunOptions, Sink, Summary};
+use flap_sweep::run::{Outcome, Progress, RowWriter, Run, RunError, RunOptions, Sink, Summary};
 use flap_sweep::study::response::{Curve, Responses};
 use flap_sweep::table::layout::Layout;
 
@@ -132,7 +132,8 @@ pub(crate) fn run_with_progress(
     let (ended, bar) = match Responses::of(plan) {
         None => {
             let mut bar = Bar::new("points");
-            (write_rounds(options, &mut output, &mut bar, &stop), bar)
+            let ran = output.run_points(options, |progress| shown(&mut bar, progress, &stop));
+            (ran, bar)
         }
         Some(responses) => {
             let mut bar = Bar::new("curves");
@@ -145,37 +146,6 @@ pub(crate) fn run_with_progress(
     summary
 }
 
-/// Writes the rows of all points, and of the points that the refinement of the plan adds.
-fn write_rounds(
-    options: &RunOptions,
-    output: &mut RowWriter<'_>,
-    bar: &mut Bar,
-    stop: &AtomicBool,
-) -> Result<(), RunError> {
-    loop {
-        let run = run::rows(output.plan(), options, output.done());
-        write_rows(run, output, bar, stop)?;
-        if stop.load(Ordering::Relaxed) || !output.next_round() {
-            return Ok(());
-        }
-    }
-}
-
-fn write_rows(
-    mut run: Run<Outcome>,
-    output: &mut RowWriter<'_>,
-    bar: &mut Bar,
-    stop: &AtomicBool,
-) -> Result<(), RunError> {
-    while let Some(rows) = next_batch(&mut run, bar, stop)? {
-        for row in &rows {
-            output.write(row)?;
-        }
-        output.flush()?;
-    }
-    Ok(())
-}
-
 fn write_curves(
     mut run: Run<Outcome<Curve>>,
     output: &mut RowWriter<'_>,
@@ -183,7 +153,11 @@ fn write_curves(
     stop: &AtomicBool,
     mut verdicts: Option<&mut Verdicts<'_>>,
 ) -> Result<(), RunError> {
-    while let Some(curves) = next_batch(&mut run, bar, stop)? {
+    loop {
+        if shown(bar, run.progress(), stop) {
+            run.stop();
+        }
+        let Some(curves) = run.next_batch()? else { return Ok(()) };
         for curve in &curves {
             if let (Outcome::Ran(curve), Some(verdicts)) = (curve, &mut verdicts) {
                 bar.aside(|| verdicts.add(curve))?;
@@ -192,19 +166,11 @@ fn write_curves(
         }
         output.flush()?;
     }
-    Ok(())
 }
 
-/// Returns the next outcomes of a run. The run stops after a signal.
-fn next_batch<T: Send + 'static>(
-    run: &mut Run<T>,
-    bar: &mut Bar,
-    stop: &AtomicBool,
-) -> Result<Option<Vec<T>>, RunError> {
-    if stop.load(Ordering::Relaxed) {
-        run.stop();
-    }
-    let batch = run.next_batch()?;
-    bar.show(run.progress(), stop.load(Ordering::Relaxed));
-    Ok(batch)
+/// Moves the progress bar. Returns true after a signal, which stops the run.
+fn shown(bar: &mut Bar, progress: Progress, stop: &AtomicBool) -> bool {
+    let is_stopped = stop.load(Ordering::Relaxed);
+    bar.show(progress, is_stopped);
+    is_stopped
 }

@@ -7,7 +7,7 @@ use csv::StringRecord;
 use flap_core::simulate::Row;
 
 use super::summary::{Limits, Summary};
-use super::{Outcome, RunError};
+use super::{Outcome, Progress, RunError, RunOptions, points};
 use crate::plan::Plan;
 use crate::refine::{self, Refinement};
 use crate::table::layout::{Cell, Layout};
@@ -71,8 +71,7 @@ pub trait Sink {
 /// Rows as text, in the order of the rows.
 pub type Written = Box<dyn Iterator<Item = io::Result<StringRecord>>>;
 
-/// Writer of the rows of a plan to a sink. The writer also counts the rows. All errors of the writer are
-/// [`RunError::Sink`].
+/// Writer of the rows of a plan to a sink. The writer also counts the rows.
 pub struct RowWriter<'a> {
     /// Plan with the points of all rounds so far.
     plan: Cow<'a, Plan>,
@@ -109,6 +108,37 @@ impl<'a> RowWriter<'a> {
     /// Returns the plan with the points of all rounds of its refinement so far.
     pub fn plan(&self) -> &Plan {
         &self.plan
+    }
+
+    /// Runs the points without rows, and the points that the refinement of the plan adds, and writes their rows.
+    ///
+    /// `stops` is called before each batch of rows, with the progress at the latest batch. If `stops` returns true, the
+    /// run stops, see [`Run::stop`](super::Run::stop).
+    ///
+    /// # Errors
+    /// The error of the run, or [`RunError::Sink`] if the rows cannot be written.
+    pub fn run_points(
+        &mut self,
+        options: &RunOptions,
+        mut stops: impl FnMut(Progress) -> bool,
+    ) -> Result<(), RunError> {
+        loop {
+            let mut run = points::rows(&self.plan, options, self.done());
+            let is_stopped = loop {
+                let is_stopped = stops(run.progress());
+                if is_stopped {
+                    run.stop();
+                }
+                let Some(batch) = run.next_batch()? else { break is_stopped };
+                for outcome in &batch {
+                    self.write(outcome)?;
+                }
+                self.flush()?;
+            };
+            if is_stopped || !self.next_round() {
+                return Ok(());
+            }
+        }
     }
 
     /// Adds the points of the next round of the refinement to the plan, after the rows of all its points are written.

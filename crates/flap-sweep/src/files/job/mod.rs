@@ -1,7 +1,7 @@
 //! Writes the rows of a plan into a result file with its sidecar. An interrupted run can be resumed.
 //!
-//! [`begin`] opens the files. The caller gets rows from [`run::rows`](crate::run::rows) on this machine or from
-//! chunks of other machines, writes them to [`Writing::sink`], and ends with [`Writing::finish`].
+//! [`begin`] opens the files. A [`RowWriter`](crate::run::RowWriter) of the caller writes rows of this machine or chunks
+//! of other machines to [`Writing::sink`]. The caller ends with [`Writing::finish`].
 
 use std::fs::{self, File};
 use std::io;
