@@ -5,7 +5,7 @@ use std::path::Path;
 
 use csv::StringRecord;
 use flap_sweep::files::beside::{journal_of, sidecar_of};
-use flap_sweep::files::integrity::{self, Damage, Note, OnDamage, Opened};
+use flap_sweep::files::integrity::{self, Note, OnDamage, Opened};
 use flap_sweep::files::journal;
 use flap_sweep::files::results::{Format, Reader};
 use flap_sweep::files::sidecar::{PlanError, Sidecar, SidecarError, State};
@@ -92,7 +92,7 @@ pub(crate) fn require_own_sidecar(results: &Path, sidecar: &Sidecar) -> Result<(
     let past = past.filter(|_| sidecar.state != State::Complete);
     match past.map(|past| past.header.identity.differences(&sidecar.identity)) {
         Some(differences) if !differences.is_empty() => {
-            let damage = Damage { foreign_sidecar: differences, ..Damage::default() };
+            let damage = integrity::foreign_sidecar(&differences);
             Err(Failure::damaged(format!("{} is damaged: {damage}", results.display())))
         }
         _ => Ok(()),

@@ -33,96 +33,81 @@ pub enum OnDamage {
 const MOST_LISTED: usize = 5;
 
 /// Differences between a result file and the file that flap wrote.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-#[expect(clippy::struct_excessive_bools, reason = "any of them may hold, and each has a sentence of its own")]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Damage {
-    /// True if the checksums in the sidecar are unreadable.
-    pub checksums: bool,
-    /// True if the header has changed.
-    pub header: bool,
-    /// Ranges of rows in changed blocks, counted from 1.
-    ///
-    /// Each block contains at least one changed row. After a missing or additional row, all rows count as changed.
-    pub rows: Vec<RangeInclusive<u64>>,
-    /// Number of rows in the file and number of written rows, if they differ.
-    pub count: Option<(u64, u64)>,
-    /// Reason why the rest of the file is unreadable.
-    pub unreadable: Option<String>,
-    /// True if bytes have changed, even if no row depends on the changed bytes.
-    pub bytes: bool,
-    /// True if unfinished rows differ from the rows that the journal records.
-    pub altered: bool,
+    /// Descriptions of the differences.
+    differences: Vec<String>,
     /// Number of rows in the journal that are missing in the file.
     pub lost: u64,
-    /// Descriptions of the differences between the sidecar and the journal.
-    pub foreign_sidecar: Vec<String>,
 }
 
 impl Damage {
     /// Returns the damage of a text: the differences between the digest `found` of the text and the `checksums` of
-    /// `rows` written rows.
-    fn of_text(found: &TextDigest, checksums: &Checksums, rows: Option<u64>) -> Damage {
-        let mut damage = Damage::default();
-        if found.text() == checksums.text {
-            return damage;
-        }
-        let Some(written) = checksums.parts().filter(|_| checksums.block_rows == BLOCK_ROWS) else {
-            return Damage { checksums: true, ..damage };
-        };
-        let found_parts = found.parts();
-        damage.header = found_parts.first() != written.first();
-        let last = rows.unwrap_or(0).max(found.rows());
-        let blocks = written.len().max(found_parts.len());
-        for block in (1..blocks).filter(|&block| found_parts.get(block) != written.get(block)) {
-            let begin = (block as u64 - 1) * u64::from(BLOCK_ROWS) + 1;
-            let end = last.min(begin + u64::from(BLOCK_ROWS) - 1).max(begin);
-            match damage.rows.last_mut() {
-                Some(range) if range.end() + 1 == begin => *range = *range.start()..=end,
-                _ => damage.rows.push(begin..=end),
+    /// `rows` written rows. `unreadable` is the reason why the rest of the text cannot be read.
+    fn of_text(
+        found: &TextDigest,
+        checksums: &Checksums,
+        rows: Option<u64>,
+        unreadable: Option<String>,
+    ) -> Damage {
+        let mut differences = Vec::new();
+        let written = checksums.parts().filter(|_| checksums.block_rows == BLOCK_ROWS);
+        match written {
+            _ if found.text() == checksums.text => {}
+            None => differences.push("the checksums cannot be read".to_owned()),
+            Some(written) => {
+                let parts = found.parts();
+                if parts.first() != written.first() {
+                    differences.push("the header has changed".to_owned());
+                }
+                let ranges = changed_rows(&parts, &written, rows.unwrap_or(0).max(found.rows()));
+                if !ranges.is_empty() {
+                    let ranges = listed(&ranges);
+                    differences.push(format!("rows {ranges} have changed since they were written"));
+                }
+                // The number of unreadable rows is unknown.
+                let other = rows.filter(|&rows| rows != found.rows() && unreadable.is_none());
+                differences.extend(
+                    other.map(|rows| format!("it contains {} rows, but {rows} were written", found.rows())),
+                );
             }
         }
-        damage.count = rows.filter(|&rows| rows != found.rows()).map(|rows| (found.rows(), rows));
-        damage
+        differences.extend(unreadable.map(|reason| format!("the rest cannot be read ({reason})")));
+        Damage { differences, lost: 0 }
     }
 
     /// Returns true if there is no damage.
     pub fn is_none(&self) -> bool {
-        *self == Damage::default()
+        self.differences.is_empty()
     }
 }
 
 impl fmt::Display for Damage {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut parts = Vec::new();
-        if self.checksums {
-            parts.push("the checksums cannot be read".to_owned());
-        }
-        if self.header {
-            parts.push("the header has changed".to_owned());
-        }
-        if !self.rows.is_empty() {
-            parts.push(format!("rows {} have changed since they were written", listed(&self.rows)));
-        }
-        if let Some((found, written)) = self.count {
-            parts.push(format!("it contains {found} rows, but {written} were written"));
-        }
-        if let Some(reason) = &self.unreadable {
-            parts.push(format!("the rest cannot be read ({reason})"));
-        }
-        if self.altered {
-            parts.push("the file has changed since the sweep wrote it".to_owned());
-        }
-        if self.lost > 0 {
-            parts.push(format!("it lacks {} that its journal records", count(self.lost, "row")));
-        }
-        if !self.foreign_sidecar.is_empty() {
-            parts.push(format!("its sidecar belongs to another sweep: {}", self.foreign_sidecar.join("; ")));
-        }
-        if self.bytes && parts.is_empty() {
-            parts.push("the rows are unchanged, but other bytes of the file have changed".to_owned());
-        }
-        f.write_str(&parts.join("; "))
+        f.write_str(&self.differences.join("; "))
     }
+}
+
+/// Returns the message about a sidecar whose identity has `differences` from the identity in the journal.
+pub fn foreign_sidecar(differences: &[String]) -> String {
+    format!("its sidecar belongs to another sweep: {}", differences.join("; "))
+}
+
+/// Returns the ranges of rows in changed blocks, counted from 1. `last` is the number of the last row.
+///
+/// Each block contains at least one changed row. After a missing or additional row, all rows count as changed.
+fn changed_rows(found: &[u32], written: &[u32], last: u64) -> Vec<RangeInclusive<u64>> {
+    let mut ranges: Vec<RangeInclusive<u64>> = Vec::new();
+    let blocks = written.len().max(found.len());
+    for block in (1..blocks).filter(|&block| found.get(block) != written.get(block)) {
+        let begin = (block as u64 - 1) * u64::from(BLOCK_ROWS) + 1;
+        let end = last.min(begin + u64::from(BLOCK_ROWS) - 1).max(begin);
+        match ranges.last_mut() {
+            Some(range) if range.end() + 1 == begin => *range = *range.start()..=end,
+            _ => ranges.push(begin..=end),
+        }
+    }
+    ranges
 }
 
 fn listed(ranges: &[RangeInclusive<u64>]) -> String {
@@ -225,7 +210,11 @@ pub fn check(
         Some(sum) if File::open(path).and_then(FileSum::of).map_err(unreadable)? == *sum => return Ok(None),
         sum => sum.is_some(),
     };
-    let damage = Damage { bytes, ..locate(path, format, sidecar, checksums).map_err(unreadable)? };
+    let mut damage = locate(path, format, sidecar, checksums).map_err(unreadable)?;
+    if bytes && damage.is_none() {
+        let difference = "the rows are unchanged, but other bytes of the file have changed";
+        damage.differences.push(difference.to_owned());
+    }
     if damage.is_none() {
         return Ok(None);
     }
@@ -238,17 +227,12 @@ pub fn check(
 /// Returns the damage of the rows. All rows are read from the file to locate the damage.
 fn locate(path: &Path, format: Format, sidecar: &Sidecar, checksums: &Checksums) -> io::Result<Damage> {
     let (found, read) = sum_up(File::open(path)?, format);
-    let rows = sidecar.rows();
-    let mut damage = Damage::of_text(&found, checksums, rows);
-    if let Err(error) = read {
-        if error.raw_os_error().is_some() {
-            return Err(error);
-        }
-        // The number of unreadable rows is unknown.
-        damage.count = None;
-        damage.unreadable = Some(error.to_string());
-    }
-    Ok(damage)
+    let unreadable = match read {
+        Ok(()) => None,
+        Err(error) if error.raw_os_error().is_some() => return Err(error),
+        Err(error) => Some(error.to_string()),
+    };
+    Ok(Damage::of_text(&found, checksums, sidecar.rows(), unreadable))
 }
 
 /// Longest row of a result file (bytes).
@@ -381,14 +365,20 @@ fn unfinished(
     let done = intact.as_ref().map(|intact| intact.checkpoint.summary.done());
     notes.push(Note::Unfinished { path: path.to_owned(), done });
     let own = &recorded.header.identity;
-    let damage = Damage {
-        altered: intact.is_none(),
-        lost: intact.as_ref().map_or(0, |intact| intact.lost),
-        foreign_sidecar: sidecar.as_ref().map_or(Vec::new(), |sidecar| own.differences(&sidecar.identity)),
-        ..Damage::default()
-    };
-    let is_foreign = !damage.foreign_sidecar.is_empty();
-    let are_sound = !damage.altered && damage.lost == 0;
+    let foreign = sidecar.as_ref().map_or(Vec::new(), |sidecar| own.differences(&sidecar.identity));
+    let is_foreign = !foreign.is_empty();
+    let lost = intact.as_ref().map_or(0, |intact| intact.lost);
+    let mut damage = Damage { differences: Vec::new(), lost };
+    if intact.is_none() {
+        damage.differences.push("the file has changed since the sweep wrote it".to_owned());
+    }
+    if lost > 0 {
+        let rows = count(lost, "row");
+        damage.differences.push(format!("it lacks {rows} that its journal records"));
+    }
+    if is_foreign {
+        damage.differences.push(foreign_sidecar(&foreign));
+    }
     if !damage.is_none() {
         if on_damage == OnDamage::Refuse {
             return Err(OpenError::Damaged { path: path.to_owned(), damage: Box::new(damage) });
@@ -401,7 +391,7 @@ fn unfinished(
     let text = if format.is_columnar() { WAITING } else { format };
     let file = File::open(&rows).map_err(unreadable)?;
     match intact {
-        Some(intact) if are_sound => Reader::of_text(file.take(intact.checkpoint.file.bytes), text),
+        Some(intact) if lost == 0 => Reader::of_text(file.take(intact.checkpoint.file.bytes), text),
         _ => whole_rows(file, text),
     }
     .map_err(unreadable)
