@@ -15,8 +15,8 @@ mod scope;
 mod tests;
 
 pub use error::{ExpressionError, Mistake};
+use evaluate::Operation;
 pub(crate) use evaluate::of_choice;
-use evaluate::{Binary, Operation};
 pub use scope::{Kind, Meaning, Scope};
 
 /// Returns true if `name` is allowed for a new name in expressions.
@@ -86,14 +86,14 @@ pub(crate) struct Comparison {
 
 /// The comparisons in `operations`, see [`Expression::comparisons`].
 fn comparisons(operations: &[Operation]) -> Option<Vec<Comparison>> {
-    let (Operation::Binary(binary), rest) = operations.split_last()? else { return None };
+    let (Operation::Binary(operator), rest) = operations.split_last()? else { return None };
     let (left, right) = evaluate::operands(rest)?;
-    let (is_strict, is_rising) = match binary {
-        Binary::And => return Some([comparisons(left)?, comparisons(right)?].concat()),
-        Binary::Less => (true, true),
-        Binary::LessOrEqual => (false, true),
-        Binary::Greater => (true, false),
-        Binary::GreaterOrEqual => (false, false),
+    let (is_strict, is_rising) = match operator.sign {
+        "and" => return Some([comparisons(left)?, comparisons(right)?].concat()),
+        "<" => (true, true),
+        "<=" => (false, true),
+        ">" => (true, false),
+        ">=" => (false, false),
         _ => return None,
     };
     let [left, right] =

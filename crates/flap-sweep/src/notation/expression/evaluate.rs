@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use super::scope::Kind;
+
 /// Returns the number that `operations` leave on the stack.
 pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
     let mut stack: Vec<f64> = Vec::with_capacity(operations.len());
@@ -12,9 +14,9 @@ pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
             Operation::Read(place) => read(values, place),
             Operation::ReadOf(choice, ref numbers) => of_choice(numbers, read(values, choice)),
             Operation::Apply(function) => function(pop(&mut stack)),
-            Operation::Binary(binary) => {
+            Operation::Binary(operator) => {
                 let (a, b) = pop_two(&mut stack);
-                apply_binary(binary, a, b)
+                (operator.apply)(a, b)
             }
             Operation::Apply2(function) => {
                 let (a, b) = pop_two(&mut stack);
@@ -65,26 +67,6 @@ fn pop_two(stack: &mut Vec<f64>) -> (f64, f64) {
     (pop(stack), b)
 }
 
-fn apply_binary(binary: Binary, a: f64, b: f64) -> f64 {
-    match binary {
-        Binary::Add => a + b,
-        Binary::Subtract => a - b,
-        Binary::Divide => a / b,
-        Binary::Power => power(a, b),
-        Binary::Less => compared(a, b, a < b),
-        Binary::LessOrEqual => compared(a, b, a <= b),
-        Binary::Greater => compared(a, b, a > b),
-        Binary::GreaterOrEqual => compared(a, b, a >= b),
-        Binary::Equal => compared(a, b, a == b),
-        Binary::NotEqual => compared(a, b, a != b),
-        Binary::And if a == 0.0 || b == 0.0 => 0.0,
-        Binary::Or if a == 1.0 || b == 1.0 => 1.0,
-        // If neither side of `and` and `or` decides, the result is NaN if a side is NaN; otherwise both sides are
-        // equal.
-        Binary::Multiply | Binary::And | Binary::Or => a * b,
-    }
-}
-
 /// Returns a to the power of b. Unlike `pow`, NaN to the power of 0 is NaN.
 fn power(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { libm::pow(a, b) }
@@ -104,28 +86,72 @@ pub(super) enum Operation {
     /// Pushes the number that belongs to the chosen option of a choice onto the stack.
     ReadOf(usize, Arc<[f64]>),
     /// Replaces the two topmost numbers on the stack.
-    Binary(Binary),
+    Binary(&'static Operator),
     /// Replaces the topmost number on the stack by a function of this number.
     Apply(fn(f64) -> f64),
     /// Replaces the two topmost numbers on the stack by a function of both numbers.
     Apply2(fn(f64, f64) -> f64),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Binary {
-    Add,
-    Subtract,
-    Multiply,
-    Divide,
-    Power,
-    Less,
-    LessOrEqual,
-    Greater,
-    GreaterOrEqual,
-    Equal,
-    NotEqual,
-    And,
-    Or,
+/// Precedence of operators, in ascending order.
+pub(super) mod precedence {
+    pub(in super::super) const ANY: u8 = 0;
+    pub(in super::super) const OR: u8 = 1;
+    pub(in super::super) const AND: u8 = 2;
+    pub(in super::super) const NOT: u8 = 3;
+    pub(in super::super) const COMPARISON: u8 = 4;
+    pub(in super::super) const SUM: u8 = 5;
+    pub(in super::super) const PRODUCT: u8 = 6;
+    /// `-2^2` is -4.
+    pub(in super::super) const SIGN: u8 = 7;
+    pub(in super::super) const POWER: u8 = 8;
+}
+
+/// A binary operator.
+#[derive(Debug)]
+pub(super) struct Operator {
+    pub(super) sign: &'static str,
+    /// Precedence.
+    pub(super) binds: u8,
+    /// Kind of both operands, and kind of the result.
+    pub(super) takes: Kind,
+    pub(super) gives: Kind,
+    apply: fn(f64, f64) -> f64,
+}
+
+/// Binary operators. If neither side of `and` and `or` decides, the result is NaN if a side is NaN; otherwise both sides
+/// are equal.
+static OPERATORS: [Operator; 13] = [
+    logical("or", precedence::OR, |a, b| if a == 1.0 || b == 1.0 { 1.0 } else { a * b }),
+    logical("and", precedence::AND, |a, b| if a == 0.0 || b == 0.0 { 0.0 } else { a * b }),
+    comparison("<", |a, b| compared(a, b, a < b)),
+    comparison("<=", |a, b| compared(a, b, a <= b)),
+    comparison(">", |a, b| compared(a, b, a > b)),
+    comparison(">=", |a, b| compared(a, b, a >= b)),
+    comparison("==", |a, b| compared(a, b, a == b)),
+    comparison("!=", |a, b| compared(a, b, a != b)),
+    arithmetic("+", precedence::SUM, |a, b| a + b),
+    arithmetic("-", precedence::SUM, |a, b| a - b),
+    arithmetic("*", precedence::PRODUCT, |a, b| a * b),
+    arithmetic("/", precedence::PRODUCT, |a, b| a / b),
+    arithmetic("^", precedence::POWER, power),
+];
+
+const fn logical(sign: &'static str, binds: u8, apply: fn(f64, f64) -> f64) -> Operator {
+    Operator { sign, binds, takes: Kind::Condition, gives: Kind::Condition, apply }
+}
+
+const fn comparison(sign: &'static str, apply: fn(f64, f64) -> f64) -> Operator {
+    Operator { sign, binds: precedence::COMPARISON, takes: Kind::Number, gives: Kind::Condition, apply }
+}
+
+const fn arithmetic(sign: &'static str, binds: u8, apply: fn(f64, f64) -> f64) -> Operator {
+    Operator { sign, binds, takes: Kind::Number, gives: Kind::Number, apply }
+}
+
+/// Returns the binary operator with the sign `sign`.
+pub(super) fn operator(sign: &str) -> Option<&'static Operator> {
+    OPERATORS.iter().find(|operator| operator.sign == sign)
 }
 
 /// A function of numbers.

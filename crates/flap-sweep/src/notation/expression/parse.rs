@@ -4,27 +4,13 @@
 use std::ops::Range;
 
 use super::error::{ExpressionError, Mistake};
-use super::evaluate::{self, Binary, Function, Operation};
+use super::evaluate::{self, Function, Operation, Operator, precedence};
 use super::scope::{Kind, Meaning, Scope};
 use crate::notation::{nearest, text, units};
 
 /// Largest nesting of parentheses, functions and operators. Deeper nesting is a mistake or an attack, and would
 /// overflow the stack.
 const MOST_NESTED: usize = 100;
-
-/// Precedence of operators, in ascending order.
-mod precedence {
-    pub(super) const ANY: u8 = 0;
-    pub(super) const OR: u8 = 1;
-    pub(super) const AND: u8 = 2;
-    pub(super) const NOT: u8 = 3;
-    pub(super) const COMPARISON: u8 = 4;
-    pub(super) const SUM: u8 = 5;
-    pub(super) const PRODUCT: u8 = 6;
-    /// `-2^2` is -4.
-    pub(super) const SIGN: u8 = 7;
-    pub(super) const POWER: u8 = 8;
-}
 
 /// Checks `text`. See [`super::Expression::parse`].
 pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operation>), Vec<ExpressionError>> {
@@ -134,9 +120,10 @@ impl<'a> Parser<'a> {
         }
         let mut left = self.prefix()?;
         let mut is_comparison = false;
-        while let Some((binary, binds)) = infix(&self.next.0)
-            && binds >= least
+        while let Some(operator) = infix(&self.next.0)
+            && operator.binds >= least
         {
+            let binds = operator.binds;
             if binds == precedence::COMPARISON && is_comparison {
                 let error = self.error("comparisons cannot be chained");
                 return Err(error.helps("join two comparisons: 1 < x and x < 2"));
@@ -145,30 +132,18 @@ impl<'a> Parser<'a> {
             self.advance()?;
             // Equal operators associate to the left, except powers.
             let right = self.operand(if binds == precedence::POWER { binds } else { binds + 1 })?;
-            left = self.combine(binary, &left, &right);
+            left = self.combine(operator, &left, &right);
         }
         self.nested -= 1;
         Ok(left)
     }
 
     /// Adds an operator between two operands, and returns its result as an operand.
-    fn combine(&mut self, binary: Binary, left: &Operand, right: &Operand) -> Operand {
-        let (wanted, kind) = match binary {
-            Binary::And | Binary::Or => (Kind::Condition, Kind::Condition),
-            Binary::Add | Binary::Subtract | Binary::Multiply | Binary::Divide | Binary::Power => {
-                (Kind::Number, Kind::Number)
-            }
-            Binary::Less
-            | Binary::LessOrEqual
-            | Binary::Greater
-            | Binary::GreaterOrEqual
-            | Binary::Equal
-            | Binary::NotEqual => (Kind::Number, Kind::Condition),
-        };
-        self.check_kind(wanted, left);
-        self.check_kind(wanted, right);
-        self.operations.push(Operation::Binary(binary));
-        Operand { kind: Some(kind), span: left.span.start..right.span.end }
+    fn combine(&mut self, operator: &'static Operator, left: &Operand, right: &Operand) -> Operand {
+        self.check_kind(operator.takes, left);
+        self.check_kind(operator.takes, right);
+        self.operations.push(Operation::Binary(operator));
+        Operand { kind: Some(operator.gives), span: left.span.start..right.span.end }
     }
 
     /// Parses a number, a name or parentheses, optionally after a unary operator.
@@ -249,7 +224,8 @@ impl<'a> Parser<'a> {
         place: usize,
         options: &[&str],
     ) -> Result<Operand, ExpressionError> {
-        let Some((comparison @ (Binary::Equal | Binary::NotEqual), _)) = infix(&self.next.0) else {
+        let comparison = infix(&self.next.0).filter(|operator| ["==", "!="].contains(&operator.sign));
+        let Some(comparison) = comparison else {
             let first = options.first().copied().unwrap_or_default();
             let message = format!("`{name}` is a choice between options, not a number");
             let help = format!("compare it with an option: {name} == '{first}'");
@@ -339,24 +315,12 @@ fn unset(name: &str, follows: &str, designs: &str, span: &Range<usize>) -> Expre
     ExpressionError::new(span.clone(), format!("`{name}` is not set{designs}")).helps(help)
 }
 
-/// Returns the binary operator of `token`, and its precedence.
-fn infix(token: &Token<'_>) -> Option<(Binary, u8)> {
-    Some(match token {
-        Token::Name("or") => (Binary::Or, precedence::OR),
-        Token::Name("and") => (Binary::And, precedence::AND),
-        Token::Sign("<") => (Binary::Less, precedence::COMPARISON),
-        Token::Sign("<=") => (Binary::LessOrEqual, precedence::COMPARISON),
-        Token::Sign(">") => (Binary::Greater, precedence::COMPARISON),
-        Token::Sign(">=") => (Binary::GreaterOrEqual, precedence::COMPARISON),
-        Token::Sign("==") => (Binary::Equal, precedence::COMPARISON),
-        Token::Sign("!=") => (Binary::NotEqual, precedence::COMPARISON),
-        Token::Sign("+") => (Binary::Add, precedence::SUM),
-        Token::Sign("-") => (Binary::Subtract, precedence::SUM),
-        Token::Sign("*") => (Binary::Multiply, precedence::PRODUCT),
-        Token::Sign("/") => (Binary::Divide, precedence::PRODUCT),
-        Token::Sign("^") => (Binary::Power, precedence::POWER),
-        _ => return None,
-    })
+/// Returns the binary operator of `token`.
+fn infix(token: &Token<'_>) -> Option<&'static Operator> {
+    match *token {
+        Token::Name(sign) | Token::Sign(sign) => evaluate::operator(sign),
+        _ => None,
+    }
 }
 
 /// A token.
