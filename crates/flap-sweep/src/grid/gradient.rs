@@ -1,8 +1,8 @@
 //! Section `[gradient]`: columns with the derivatives of measures with respect to parameters.
 
+use std::ops::Range;
+
 use flap_core::parameter::Parameter;
-use toml::Spanned;
-use toml::de::DeValue;
 
 use super::diagnostic::Problems;
 use super::formula::Names;
@@ -48,57 +48,25 @@ pub(super) fn read(
     }
     let of = table::find(&entries, "of")?;
     let with_respect_to = table::find(&entries, "with_respect_to")?;
-    let of = listed(of, problems, |name, item, problems| measure(name, item, names, problems));
-    let with_respect_to = listed(with_respect_to, problems, |name, item, problems| {
-        parameter(name, item, names, derived, body, problems)
-    });
-    Some(Gradient { of, with_respect_to, per: Per::Cent })
-}
-
-/// Returns the indices of the names in a list. `index` returns the index of a name, or reports an unknown name.
-fn listed(
-    entry: &Entry<'_>,
-    problems: &mut Problems,
-    mut index: impl FnMut(&str, &Spanned<DeValue<'_>>, &mut Problems) -> Option<usize>,
-) -> Vec<usize> {
-    let list = entry.value.get_ref().as_array().filter(|list| !list.is_empty());
-    let Some(list) = list else {
-        problems.report(entry.value.span(), format!("`{}` must be a list of names", entry.key));
-        return Vec::new();
-    };
-    let mut indices = Vec::new();
-    for item in list {
-        let name = value::text(entry.key, item, problems);
-        let Some(index) = name.and_then(|name| index(name, item, problems)) else { continue };
-        if indices.contains(&index) {
-            problems
-                .report(item.span(), format!("`{}` is listed twice", name.unwrap_or_default()))
-                .help("keep one of them");
-        }
-        indices.push(index);
-    }
-    indices
+    let of = value::names(of, "a list of names", "", problems).into_iter();
+    let of = of.filter_map(|(name, span)| measure(name, span, names, problems)).collect();
+    let by = value::names(with_respect_to, "a list of names", "", problems).into_iter();
+    let by = by.filter_map(|(name, span)| parameter(name, span, names, derived, body, problems));
+    Some(Gradient { of, with_respect_to: by.collect(), per: Per::Cent })
 }
 
 /// Returns the index of a measure: the model's columns come first, then the user's measures.
-fn measure(
-    name: &str,
-    item: &Spanned<DeValue<'_>>,
-    names: &Names<'_>,
-    problems: &mut Problems,
-) -> Option<usize> {
+fn measure(name: &str, span: Range<usize>, names: &Names<'_>, problems: &mut Problems) -> Option<usize> {
     let columns = names.columns.iter().map(|column| column.name.as_str());
     let own = names.own.iter().map(|own| own.name.as_str());
     let index = columns.clone().chain(own.clone()).position(|known| known == name);
     let Some(index) = index else {
-        problems
-            .report(item.span(), format!("there is no measure `{name}`"))
-            .did_you_mean(name, columns.chain(own));
+        problems.report(span, format!("there is no measure `{name}`")).did_you_mean(name, columns.chain(own));
         return None;
     };
     let own = index.checked_sub(names.columns.len()).map(|place| &names.own[place]);
     if own.is_some_and(|own| own.kind() != Kind::Number) {
-        problems.report(item.span(), format!("`{name}` is true or false, and has no derivatives"));
+        problems.report(span, format!("`{name}` is true or false, and has no derivatives"));
         return None;
     }
     Some(index)
@@ -107,7 +75,7 @@ fn measure(
 /// Returns the index of a parameter that can have relative changes.
 fn parameter(
     name: &str,
-    item: &Spanned<DeValue<'_>>,
+    span: Range<usize>,
     names: &Names<'_>,
     derived: &Derived,
     body: Option<&BodyRows>,
@@ -115,7 +83,7 @@ fn parameter(
 ) -> Option<usize> {
     let Some(index) = Parameter::index(names.parameters, name) else {
         problems
-            .report(item.span(), format!("there is no parameter `{name}`"))
+            .report(span, format!("there is no parameter `{name}`"))
             .did_you_mean(name, names.parameters.iter().map(|parameter| parameter.name));
         return None;
     };
@@ -125,7 +93,7 @@ fn parameter(
     let Err(reason) = check(&names.parameters[index], is_derived, is_input, names.unset[standing]) else {
         return Some(index);
     };
-    let diagnostic = problems.report(item.span(), format!("`{name}` {reason}"));
+    let diagnostic = problems.report(span, format!("`{name}` {reason}"));
     if !reason.help().is_empty() {
         diagnostic.help(reason.help());
     }

@@ -1,10 +1,9 @@
 //! Section `[output]`: the file for rows, and the columns of this file.
 
+use std::ops::Range;
 use std::path::PathBuf;
 
 use flap_core::parameter::Parameter;
-use toml::Spanned;
-use toml::de::DeValue;
 
 use super::diagnostic::Problems;
 use super::table::{self, Entry};
@@ -31,7 +30,7 @@ pub(super) fn read(
     table::check_keys(&entries, &KEYS, "in [output]", problems);
     let path = table::find(&entries, "path").and_then(|entry| path_of(entry, problems));
     let columns = table::find(&entries, "columns").zip(model);
-    Output { path, columns: columns.map(|(entry, model)| columns_of(model, entry.value, problems)) }
+    Output { path, columns: columns.map(|(entry, model)| columns_of(model, entry, problems)) }
 }
 
 /// Returns the file for rows, or `-` for stdout.
@@ -45,34 +44,17 @@ fn path_of(entry: &Entry<'_>, problems: &mut Problems) -> Option<PathBuf> {
     Some(path)
 }
 
-/// Returns the indices of the columns that `value` lists.
-fn columns_of(model: Measured<'_>, value: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Vec<usize> {
-    let list = value.get_ref().as_array().filter(|list| !list.is_empty());
-    let Some(list) = list else {
-        problems
-            .report(value.span(), "`columns` must be a list of column names")
-            .help("remove `columns` to write all columns of the model");
-        return Vec::new();
-    };
-    let mut chosen: Vec<(usize, &Spanned<DeValue<'_>>)> = Vec::new();
-    for item in list {
-        let Some(name) = value::text("columns", item, problems) else {
-            continue;
-        };
-        let Some(index) = names(model.1).position(|known| known == name) else {
-            report_unknown(model, name, item, problems);
-            continue;
-        };
-        if let Some((_, first)) = chosen.iter().find(|(other, _)| *other == index) {
-            problems
-                .report(item.span(), format!("column `{name}` is listed twice"))
-                .label("again here")
-                .related(first.span(), "first here")
-                .help("keep one of them");
+/// Returns the indices of the columns in the list of `entry`.
+fn columns_of(model: Measured<'_>, entry: &Entry<'_>, problems: &mut Problems) -> Vec<usize> {
+    let help = "remove `columns` to write all columns of the model";
+    let mut chosen = Vec::new();
+    for (name, span) in value::names(entry, "a list of column names", help, problems) {
+        match names(model.1).position(|known| known == name) {
+            Some(index) => chosen.push(index),
+            None => report_unknown(model, name, span, problems),
         }
-        chosen.push((index, item));
     }
-    chosen.into_iter().map(|(index, _)| index).collect()
+    chosen
 }
 
 /// Returns the names of the columns that can be chosen: measures, then columns about the run.
@@ -80,27 +62,22 @@ fn names(measures: &[String]) -> impl Iterator<Item = &str> {
     measures.iter().map(String::as_str).chain(RUN.iter().map(|column| column.name))
 }
 
-fn report_unknown(
-    (robot, columns): Measured<'_>,
-    name: &str,
-    item: &Spanned<DeValue<'_>>,
-    problems: &mut Problems,
-) {
+fn report_unknown((robot, columns): Measured<'_>, name: &str, span: Range<usize>, problems: &mut Problems) {
     if [POINT.name, STATUS.name].contains(&name) {
         problems
-            .report(item.span(), format!("`{name}` cannot be chosen: every row has it"))
+            .report(span, format!("`{name}` cannot be chosen: every row has it"))
             .help(format!("remove `{name}`"));
         return;
     }
     if Parameter::index(robot.parameters(), name).is_some() {
         problems
-            .report(item.span(), format!("`{name}` is a parameter, not a measure"))
+            .report(span, format!("`{name}` is a parameter, not a measure"))
             .note("rows contain all varied and derived parameters")
             .help(format!("remove `{name}`"));
         return;
     }
     problems
-        .report(item.span(), format!("model `{}` has no column `{name}`", robot.name()))
+        .report(span, format!("model `{}` has no column `{name}`", robot.name()))
         .label("unknown column")
         .note(format!("columns: {}", names(columns).collect::<Vec<_>>().join(", ")))
         .did_you_mean(name, names(columns));

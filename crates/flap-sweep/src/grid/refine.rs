@@ -1,5 +1,7 @@
 //! Section `[refine]`: adaptive refinement of the grid of the axes.
 
+use std::ops::Range;
+
 use flap_core::parameter::Parameter;
 use toml::Spanned;
 use toml::de::DeValue;
@@ -104,31 +106,18 @@ fn along(
 
 /// Returns the axes of the parameters in the list `along`.
 fn listed_axes(entry: &Entry<'_>, axes: &[Placed], lookup: &mut Lookup<'_>) -> Vec<usize> {
-    let Some(list) = entry.value.get_ref().as_array().filter(|list| !list.is_empty()) else {
-        lookup
-            .report(entry.value.span(), "`along` must be a list of parameters under [axes]")
-            .help("remove `along` to add points along all axes of numbers");
-        return Vec::new();
-    };
+    let help = "remove `along` to add points along all axes of numbers";
     let mut along = Vec::new();
-    for item in list {
-        let Some(name) = value::text("along", item, lookup.problems) else { continue };
-        let Some((index, parameter)) = lookup.named(name, item.span()) else { continue };
-        let name = parameter.name;
+    for (name, span) in value::names(entry, "a list of parameters under [axes]", help, lookup.problems) {
+        let Some((index, _)) = lookup.named(name, span.clone()) else { continue };
         let varies = |placed: &Placed| placed.axis.parameters().iter().any(|(varied, _)| *varied == index);
         let Some(place) = axes.iter().position(varies) else {
-            lookup
-                .report(item.span(), format!("`{name}` has no axis"))
-                .help(format!("vary `{name}` under [axes]"));
+            lookup.report(span, format!("`{name}` has no axis")).help(format!("vary `{name}` under [axes]"));
             continue;
         };
-        if along.contains(&place) {
-            let message = format!("`{name}` is listed twice");
-            lookup.report(item.span(), message).help("keep one of them");
-        }
         if let Some(reason) = not_refined(&axes[place].axis, lookup.robot.parameters()) {
             lookup
-                .report(item.span(), format!("no points can be added along `{name}`: {reason}"))
+                .report(span, format!("no points can be added along `{name}`: {reason}"))
                 .related(axes[place].span.clone(), "its axis")
                 .help(format!("remove `{name}`: each of its values then gets a separate map"));
         }
@@ -153,39 +142,30 @@ fn max_points(entry: &Entry<'_>, axes: &[Placed], problems: &mut Problems) -> Op
 
 /// Returns the names of the measures.
 fn measures(entry: &Entry<'_>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) -> Vec<String> {
-    let items: Vec<&Spanned<DeValue<'_>>> = match entry.value.get_ref() {
-        DeValue::Array(list) if !list.is_empty() => list.iter().collect(),
-        DeValue::String(_) => vec![entry.value],
-        _ => {
-            let message = "`measure` must be the name of a measure, or a list of names";
-            lookup.report(entry.value.span(), message);
-            return Vec::new();
-        }
+    let names = if entry.value.get_ref().is_str() {
+        let name = value::text(entry.key, entry.value, lookup.problems);
+        name.map(|name| (name, entry.value.span())).into_iter().collect()
+    } else {
+        let wanted = "the name of a measure, or a list of names";
+        value::names(entry, wanted, "", lookup.problems)
     };
-    let mut names: Vec<String> = Vec::new();
-    for item in items {
-        let Some(name) = value::text("measure", item, lookup.problems) else { continue };
-        if names.iter().any(|known| known == name) {
-            let message = format!("`{name}` is listed twice");
-            lookup.report(item.span(), message).help("keep one of them");
-        }
-        check_measure(name, item, rows, lookup);
-        names.push(name.to_owned());
+    for (name, span) in &names {
+        check_measure(name, span, rows, lookup);
     }
-    names
+    names.into_iter().map(|(name, _)| name.to_owned()).collect()
 }
 
 /// Checks that rows contain a measure, and that the measure is a number.
-fn check_measure(name: &str, item: &Spanned<DeValue<'_>>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) {
+fn check_measure(name: &str, span: &Range<usize>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) {
     let problems = &mut *lookup.problems;
     let Some(index) = rows.columns.iter().position(|known| known == name) else {
         if Parameter::index(lookup.robot.parameters(), name).is_some() {
-            problems.report(item.span(), format!("`{name}` is a parameter, not a measure"));
+            problems.report(span.clone(), format!("`{name}` is a parameter, not a measure"));
             return;
         }
         let model = lookup.robot.name();
         problems
-            .report(item.span(), format!("model `{model}` has no measure `{name}`"))
+            .report(span.clone(), format!("model `{model}` has no measure `{name}`"))
             .label("unknown measure")
             .note(format!("measures: {}", rows.columns.join(", ")))
             .did_you_mean(name, rows.columns.iter().map(String::as_str));
@@ -194,12 +174,12 @@ fn check_measure(name: &str, item: &Spanned<DeValue<'_>>, rows: &Rows<'_>, looku
     let own = rows.own.iter().find(|own| own.name == name);
     if own.is_some_and(|own| own.kind() != expression::Kind::Number) {
         problems
-            .report(item.span(), format!("`{name}` is true or false, and cannot be interpolated"))
+            .report(span.clone(), format!("`{name}` is true or false, and cannot be interpolated"))
             .help("name a measure that is a number");
     }
     if rows.output.columns.as_ref().is_some_and(|chosen| !chosen.contains(&index)) {
         problems
-            .report(item.span(), format!("`{name}` is not among the `columns` of [output]"))
+            .report(span.clone(), format!("`{name}` is not among the `columns` of [output]"))
             .note("an interrupted sweep reads its measures from the rows")
             .help(format!("add \"{name}\" to `columns`"));
     }

@@ -1,5 +1,6 @@
 //! Single values of parameters and settings.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use flap_core::parameter::{Kind, Parameter};
@@ -195,6 +196,39 @@ pub(super) fn text<'t>(name: &str, value: &'t Value<'_>, problems: &mut Problems
             None
         }
     }
+}
+
+/// Returns the names in a list, each with its position, and reports repeated names. `wanted` completes the message
+/// "`key` must be …"; `help` may be empty.
+pub(super) fn names<'t>(
+    entry: &Entry<'t>,
+    wanted: &str,
+    help: &str,
+    problems: &mut Problems,
+) -> Vec<(&'t str, Range<usize>)> {
+    let list = entry.value.get_ref().as_array().filter(|list| !list.is_empty());
+    let Some(list) = list else {
+        let diagnostic = problems.report(entry.value.span(), format!("`{}` must be {wanted}", entry.key));
+        if !help.is_empty() {
+            diagnostic.help(help);
+        }
+        return Vec::new();
+    };
+    let mut places: HashMap<&str, Range<usize>> = HashMap::new();
+    let mut found = Vec::new();
+    for item in list {
+        let Some(name) = text(entry.key, item, problems) else { continue };
+        let first = places.entry(name).or_insert_with(|| item.span());
+        if *first != item.span() {
+            problems
+                .report(item.span(), format!("`{name}` is listed twice"))
+                .label("again here")
+                .related(first.clone(), "first here")
+                .help("keep one of them");
+        }
+        found.push((name, item.span()));
+    }
+    found
 }
 
 fn report_unit_error(name: &str, span: Range<usize>, error: &UnitError, problems: &mut Problems) {
