@@ -5,6 +5,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use atomic_write_file::AtomicWriteFile;
+use same_file::Handle;
 
 use crate::system;
 
@@ -165,11 +166,12 @@ pub(crate) fn check_in_place(file: &File, path: &Path) -> io::Result<()> {
 /// Returns true if `file` is still the file at `path`.
 ///
 /// # Errors
-/// The error of the operating system.
+/// The error of the operating system. If a file is removed on Windows while it is open, the error may be
+/// [`io::ErrorKind::PermissionDenied`] until the file is closed.
 pub(crate) fn is_in_place(file: &File, path: &Path) -> io::Result<bool> {
-    match system::id_at(path) {
+    match Handle::from_path(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
-        there => Ok(there? == system::id_of(file)?),
+        there => Ok(there? == Handle::from_file(file.try_clone()?)?),
     }
 }
 
@@ -177,7 +179,7 @@ pub(crate) fn is_in_place(file: &File, path: &Path) -> io::Result<bool> {
 /// and pipes store nothing.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     let is_file = |path| fs::metadata(path).is_ok_and(|metadata| metadata.is_file());
-    is_file(a) && is_file(b) && matches!((system::id_at(a), system::id_at(b)), (Ok(a), Ok(b)) if a == b)
+    is_file(a) && is_file(b) && same_file::is_same_file(a, b).unwrap_or(false)
 }
 
 /// Returns true if writing to both names would write to the same file. The files need not exist.

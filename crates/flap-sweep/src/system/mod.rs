@@ -6,6 +6,6 @@ mod unix;
 mod windows;
 
 #[cfg(unix)]
-pub(crate) use unix::{id_at, id_of, is_pipe_of_shell, is_stream};
+pub(crate) use unix::{is_pipe_of_shell, is_stream};
 #[cfg(windows)]
-pub(crate) use windows::{id_at, id_of, is_pipe_of_shell, is_stream};
+pub(crate) use windows::{is_pipe_of_shell, is_stream};
