@@ -422,7 +422,7 @@ def test_pins_stand_side_by_side(page):
 
 
 def test_saved_texts_give_what_is_shown(page, tmp_path):
-    """The grid gives the rows bit for bit, the device and the line of Python the design."""
+    """The grid gives the rows bit for bit, the device and the lines of Python the design."""
     page.give("wing_length", "18")
     Select(page.find("#p-drive_shape")).select_by_value("square")
     page.type("#by-values", "120, 180")
@@ -440,12 +440,12 @@ def test_saved_texts_give_what_is_shown(page, tmp_path):
     value = next(line.split()[1] for line in ended.splitlines() if line.split()[:1] == ["lift_mean_mn"])
     assert float(value) == pytest.approx(float(lift.split()[0]), rel=1e-4)
 
-    line = page.saved("python")
-    compile(line, "family.py", "exec")
-    assert "0.018" in line and "flapwing.sweep" in line
+    lines = page.saved("python")
+    compile(lines, "family.py", "exec")
+    assert "0.018" in lines and "flapwing.sweep" in lines
     pytest.importorskip("flapwing", exc_type=ImportError)
     found = {}
-    exec(line, found)  # the line that the page offers
+    exec(lines, found)  # the lines that the page offers
     assert len(found["table"]) == 2 * 81
 
 

@@ -271,8 +271,11 @@ fn the_saved_response_is_that_of_the_page() {
     let command = text.lines().next().unwrap().strip_prefix("# flap ").unwrap();
     folder.ends(0, command);
     assert_same_rows(&curve, &folder.read("response.csv"));
-    let line = live.answer("save", json!({ "kind": "python", "updown": true, "x": x }));
-    assert!(line["text"].as_str().unwrap().contains("flapwing.respond("), "{line}");
+    let (_, grid) = text.split_once('\n').unwrap();
+    let python = live.answer("save", json!({ "kind": "python", "updown": true, "x": x }));
+    let call =
+        format!("import flapwing\n\ncurve = flapwing.respond(\"\"\"\\\n{grid}\"\"\", \"drive_frequency\")\n");
+    assert_eq!(python["text"], call);
 }
 
 #[test]

@@ -32,9 +32,9 @@ FAMILY = {
 def test_rows_of_the_page_are_those_of_a_sweep():
     with flapwing.live("ozaki2018-large", hinge_stiffness="120 uN*m/rad", rtol=1e-7, threads=1) as page:
         answer = ask(page, "family", FAMILY)
-        line = ask(page, "save", {"kind": "python", **FAMILY})["text"]
+        lines = ask(page, "save", {"kind": "python", **FAMILY})["text"]
     found = {}
-    exec(line, found)  # the line that the page offers
+    exec(lines, found)  # the lines that the page offers
     table = found["table"]
     assert answer["columns"] == list(table.columns)
     for name, column in zip(answer["columns"], zip(*answer["rows"])):

@@ -5,7 +5,6 @@ mod family;
 mod hysteresis;
 mod motion;
 mod point;
-mod python;
 mod save;
 
 pub(crate) use context::AnswerContext;

@@ -5,7 +5,6 @@ use flap_sweep::plan::Plan;
 use serde::Serialize;
 
 use super::context::AnswerContext;
-use super::python;
 use crate::request::{Refused, SaveKind, SaveRequest, XAxis};
 
 /// A text, and the name of the file in which the user saves the text.
@@ -24,6 +23,13 @@ fn device(plan: &Plan) -> Result<String, Refused> {
     })
 }
 
+/// Returns lines of Python that assign the result of a function of flapwing to `result`. The arguments of the function
+/// are the text of a grid file, and `more`.
+fn python(result: &str, function: &str, grid: &str, more: &str) -> String {
+    let grid = grid.replace('\\', r"\\").replace(r#"""""#, r#"\"\"\""#);
+    format!("import flapwing\n\n{result} = flapwing.{function}(\"\"\"\\\n{grid}\"\"\"{more})\n")
+}
+
 /// Returns the requested text, which is checked like every grid file.
 pub(crate) fn save(context: &AnswerContext<'_>, request: &SaveRequest) -> Result<Saved, Refused> {
     let SaveRequest { kind, design, x, by, updown } = request;
@@ -40,9 +46,31 @@ pub(crate) fn save(context: &AnswerContext<'_>, request: &SaveRequest) -> Result
             Saved { name: "response.toml", text: format!("# {command}\n{text}") }
         }
         (SaveKind::Device, _) => Saved { name: "design.toml", text: device(&plan)? },
-        (SaveKind::Python, None) => Saved { name: "family.py", text: python::sweep(&text)? },
+        (SaveKind::Python, None) => Saved { name: "family.py", text: python("table", "sweep", &text, "") },
         (SaveKind::Python, Some(XAxis { name, .. })) => {
-            Saved { name: "response.py", text: python::respond(&text, name)? }
+            let along = format!(", \"{name}\"");
+            Saved { name: "response.py", text: python("curve", "respond", &text, &along) }
         }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quotes_and_backslashes_of_a_grid_are_escaped_in_python() {
+        let grid = "preset = \"a\"\n[measure]\nx = \"\"\"\ny\"\"\"\nz = \"\\n\"\n";
+        let lines = r#"import flapwing
+
+curve = flapwing.respond("""\
+preset = "a"
+[measure]
+x = \"\"\"
+y\"\"\"
+z = "\\n"
+""", "f")
+"#;
+        assert_eq!(python("curve", "respond", grid, ", \"f\""), lines);
+    }
 }
