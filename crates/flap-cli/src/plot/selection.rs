@@ -3,7 +3,7 @@
 use super::kind::{self, Columns};
 use super::request::Request;
 use super::scale;
-use super::slices::{self, ChosenValue};
+use super::slices;
 use crate::args::{Aim, Filter, PictureKind};
 use crate::console;
 use crate::data::axes::Axes;
@@ -56,19 +56,15 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
     let mut hidden = hidden(&columns, &axes);
     check_best_over(request, &hidden)?;
     hidden.retain(|axis| !request.best_over.contains(axis));
-    let slice = slices::sliced(table, &hidden, rows);
-    let rows = if request.best_over.is_empty() {
-        slice.rows
-    } else {
+    let (mut rows, chosen) = slices::sliced(table, &hidden, rows);
+    if !request.best_over.is_empty() {
         notes.push(format!("best over {}", request.listed(&request.best_over)));
-        best(request, table, &columns, &axes, &slice.rows)?
-    };
-    for ChosenValue { name, value, of, .. } in &slice.chosen {
-        console::say(&format!(
-            "drawn: {name} = {value}, the middle of {of} values; --where chooses another value"
-        ));
+        rows = best(request, table, &columns, &axes, &rows)?;
     }
-    notes.extend(slice.chosen.into_iter().map(|chosen| chosen.shown));
+    for [message, note] in chosen {
+        console::say(&message);
+        notes.push(note);
+    }
     let mut parameters: Vec<usize> = (1..request.parameters_end).collect();
     let sample = table.sample.as_deref().unwrap_or_default();
     parameters.sort_by_key(|&column| !sample.contains(&table.columns[column].name));

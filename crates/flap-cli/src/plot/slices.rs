@@ -59,43 +59,26 @@ fn listed(table: &Table, column: usize, levels: &Levels) -> String {
     format!("{name} is {} {unit}", shown.join(", ")).trim_end().to_owned()
 }
 
-/// The rows with one value of each axis that the picture does not show.
-pub(super) struct Slice {
-    pub(super) rows: Vec<usize>,
-    /// The value that was chosen for each axis that the picture does not show.
-    pub(super) chosen: Vec<ChosenValue>,
-}
-
-/// The value that was chosen for an axis.
-pub(super) struct ChosenValue {
-    /// The value with the label of the axis: `Drive voltage 70 V`.
-    pub(super) shown: String,
-    /// The column.
-    pub(super) name: String,
-    /// The value in the shown unit, such as `70 V`.
-    pub(super) value: String,
-    /// The number of values of the axis.
-    pub(super) of: usize,
-}
-
 /// Chooses the middle value of each axis in `axes`. The picture does not show the axes in `axes`.
-pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> Slice {
+///
+/// Returns the rows with the chosen values, and for each chosen value a message and a note for the picture.
+pub(super) fn sliced(
+    table: &Table,
+    axes: &[usize],
+    mut rows: Vec<usize>,
+) -> (Vec<usize>, Vec<[String; 2]>) {
     let mut chosen = Vec::new();
     for &axis in axes {
         let levels = Levels::of(table, axis, &rows);
-        if levels.len() < 2 {
+        let (many, middle) = (levels.len(), levels.len() / 2);
+        if many < 2 {
             continue;
         }
-        let middle = levels.len() / 2;
-        let name = &table.columns[axis].name;
-        let label = table.label(axis);
+        let (name, label) = (&table.columns[axis].name, table.label(axis));
         let value = levels.text(middle, &label);
-        chosen.push(ChosenValue {
-            shown: format!("{} {value}", label.words),
-            name: name.clone(),
-            value,
-            of: levels.len(),
-        });
+        let message =
+            format!("drawn: {name} = {value}, the middle of {many} values; --where chooses another value");
+        chosen.push([message, format!("{} {value}", label.words)]);
         rows = rows
             .into_iter()
             .zip(&levels.codes)
@@ -103,7 +86,7 @@ pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> Sli
             .map(|(row, _)| row)
             .collect();
     }
-    Slice { rows, chosen }
+    (rows, chosen)
 }
 
 /// Returns, for each combination of values in the columns `shown`, the row with the best number in the column `measure`.
@@ -146,13 +129,11 @@ mod tests {
     #[test]
     fn slices_take_the_middle_of_what_is_not_shown() {
         let table = grid();
-        let slice = sliced(&table, &[2], (0..6).collect());
-        assert_eq!(slice.rows, [1, 4]);
-        assert_eq!(slice.chosen.len(), 1);
-        let ChosenValue { name, value, of, .. } = &slice.chosen[0];
-        assert_eq!((name.as_str(), value.as_str(), *of), ("f", "20 Hz", 3));
-        assert_eq!(slice.chosen[0].shown, "F 20 Hz");
-        assert!(sliced(&table, &[], (0..6).collect()).chosen.is_empty());
+        let (rows, chosen) = sliced(&table, &[2], (0..6).collect());
+        assert_eq!(rows, [1, 4]);
+        let message = "drawn: f = 20 Hz, the middle of 3 values; --where chooses another value";
+        assert_eq!(chosen, [[message, "F 20 Hz"]]);
+        assert!(sliced(&table, &[], (0..6).collect()).1.is_empty());
     }
 
     #[test]
