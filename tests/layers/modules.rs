@@ -50,7 +50,7 @@ const CRATES: &[(&str, &[&str])] = &[
     ),
     (
         "flap-live",
-        &["page", "request", "latest", "rows", "opened", "description", "answer", "guard", "server", "lib"],
+        &["page", "request", "rows", "opened", "description", "answer", "guard", "server", "lib"],
     ),
     (
         "flap-cli",

@@ -15,7 +15,6 @@ import pytest
 def ask(page, kind, body, token=None):
     """The answer of a server to a request of its page."""
     base, own = page.address.split("/?token=")
-    body = {"page": "a page", "number": 1, **body}
     headers = {"X-Flap-Token": token or own, "Content-Type": "application/json"}
     request = urllib.request.Request(f"{base}/api/{kind}", json.dumps(body).encode(), headers)
     with urllib.request.urlopen(request, timeout=60) as answer:

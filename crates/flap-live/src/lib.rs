@@ -6,7 +6,6 @@
 //!
 //! - [`page`]: pages for a browser, each in one text with its style, code and data
 //! - `request`: requests of the live page
-//! - `latest`: cancels requests when newer requests of the same kind arrive
 //! - `rows`: rows of a sweep as JSON
 //! - `opened`: the design that was opened, and grid files for the contents of the page
 //! - `description`: parameters, measures and the first view, for the page
@@ -22,8 +21,6 @@ mod answer;
 mod description;
 #[cfg(feature = "server")]
 mod guard;
-#[cfg(feature = "server")]
-mod latest;
 #[cfg(feature = "server")]
 mod opened;
 #[cfg(feature = "server")]

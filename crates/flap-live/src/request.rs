@@ -37,14 +37,6 @@ pub(crate) struct By {
     pub(crate) values: Vec<Number>,
 }
 
-/// The order of a request among the requests of its page: a newer request cancels an older request.
-#[derive(Debug, Deserialize)]
-pub(crate) struct RequestOrder {
-    /// A text that identifies an open page.
-    pub(crate) page: String,
-    pub(crate) number: u64,
-}
-
 /// A request for a family of lines, whose points are rows.
 #[derive(Debug, Deserialize)]
 pub(crate) struct FamilyRequest {
@@ -110,8 +102,8 @@ pub(crate) enum Refused {
     Malformed(String),
     /// Values that are impossible, with advice and the parameter concerned.
     Impossible { error: String, help: Option<String>, parameter: Option<String> },
-    /// A newer request has arrived.
-    Superseded,
+    /// The connection was closed, so nobody waits for the answer.
+    Cancelled,
     /// An internal error in flap.
     Fault(String),
 }

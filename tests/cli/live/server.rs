@@ -3,10 +3,9 @@
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{Shutdown, TcpStream};
 use std::process::Child;
-use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
-use serde_json::{Value, json};
+use serde_json::Value;
 
 use crate::support::{Folder, start};
 
@@ -15,7 +14,6 @@ pub(super) struct Live {
     pub(super) child: Child,
     pub(super) port: u16,
     pub(super) token: String,
-    number: AtomicU64,
 }
 
 /// An answer: its status, its headers as text, and its body.
@@ -35,7 +33,7 @@ impl Live {
         let address = line.trim().strip_prefix("http://127.0.0.1:").expect("an address on the first line");
         let (port, token) = address.split_once("/?token=").expect("an address with a token");
         let (port, token) = (port.parse().unwrap(), token.to_owned());
-        Live { child, port, token, number: AtomicU64::new(0) }
+        Live { child, port, token }
     }
 
     /// The answer to a request.
@@ -75,9 +73,7 @@ impl Live {
     }
 
     /// The answer to a request of the page.
-    pub(super) fn ask(&self, kind: &str, mut body: Value) -> (u16, Value) {
-        body["page"] = json!("a page");
-        body["number"] = json!(self.number.fetch_add(1, Ordering::Relaxed));
+    pub(super) fn ask(&self, kind: &str, body: Value) -> (u16, Value) {
         let answer = self.send(self.request(kind, &body.to_string()).as_bytes()).expect("an answer");
         (answer.status, serde_json::from_str(&answer.body).expect("JSON"))
     }

@@ -12,14 +12,14 @@ use crate::request::Refused;
 pub(crate) struct AnswerContext<'a> {
     pub(crate) opened: &'a Opened,
     pub(crate) options: RunOptions,
-    /// The stop flag, which a newer request sets.
+    /// The stop flag, which is set when the connection is closed.
     pub(crate) stop: &'a AtomicBool,
 }
 
 impl AnswerContext<'_> {
-    /// Returns [`Refused::Superseded`] if a newer request has arrived.
-    pub(super) fn check_current(&self) -> Result<(), Refused> {
-        if self.stop.load(Ordering::Relaxed) { Err(Refused::Superseded) } else { Ok(()) }
+    /// Returns [`Refused::Cancelled`] if nobody waits for the answer.
+    pub(super) fn check_wanted(&self) -> Result<(), Refused> {
+        if self.stop.load(Ordering::Relaxed) { Err(Refused::Cancelled) } else { Ok(()) }
     }
 }
 
@@ -33,7 +33,7 @@ impl From<RunError> for Refused {
 /// Returns the reason why a motion could not be computed.
 pub(super) fn unfinished(reason: Unfinished) -> Refused {
     match reason {
-        Unfinished::Interrupted => Refused::Superseded,
+        Unfinished::Interrupted => Refused::Cancelled,
         other => Refused::impossible(other.to_string()),
     }
 }

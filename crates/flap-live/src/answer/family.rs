@@ -14,7 +14,7 @@ pub(crate) fn family(context: &AnswerContext<'_>, request: &FamilyRequest) -> Re
     let mut output = RowWriter::begin(&plan, Summary::default(), &mut rows)?;
     let mut run = run::rows(&plan, &context.options, 0);
     while let Some(batch) = run.next_batch()? {
-        context.check_current()?;
+        context.check_wanted()?;
         for row in &batch {
             output.write(row)?;
         }

@@ -48,7 +48,7 @@ pub(crate) fn hysteresis(
     let mut output = RowWriter::begin(&plan, Summary::default(), &mut rows)?;
     let mut run = responses.curves(&context.options, 0);
     while let Some(batch) = run.next_batch()? {
-        context.check_current()?;
+        context.check_wanted()?;
         for outcome in &batch {
             output.write_curve(outcome)?;
             if let Outcome::Ran(curve) = outcome {

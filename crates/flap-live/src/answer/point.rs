@@ -74,14 +74,14 @@ pub(crate) fn point(context: &AnswerContext<'_>, request: &PointRequest) -> Resu
             row
         }
     };
-    context.check_current()?;
+    context.check_wanted()?;
     let (mut gradient, mut gradient_reason) = (None, None);
     if let Some(measure) = &request.gradient {
         match slopes(&plan, &run, &row, measure) {
             Ok(slopes) => gradient = Some(slopes),
             Err(reason) => gradient_reason = Some(reason),
         }
-        context.check_current()?;
+        context.check_wanted()?;
     }
     let layout = Layout::of(&plan);
     let cells = |row: &Row, values: Vec<f64>| -> Vec<Value> {

@@ -40,7 +40,7 @@ pub(super) fn refusal(status: StatusCode, error: &str) -> Response {
 pub(super) fn refused(refused: Refused) -> Response {
     match refused {
         Refused::Malformed(error) => refusal(StatusCode::BAD_REQUEST, &error),
-        Refused::Superseded => refusal(StatusCode::CONFLICT, "a newer request replaces this one"),
+        Refused::Cancelled => refusal(StatusCode::SERVICE_UNAVAILABLE, "the request was cancelled"),
         Refused::Fault(error) => refusal(StatusCode::INTERNAL_SERVER_ERROR, &error),
         Refused::Impossible { error, help, parameter } => {
             let body = json!({ "error": error, "help": help, "parameter": parameter });

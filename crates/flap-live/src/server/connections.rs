@@ -9,6 +9,7 @@ use hyper_util::rt::{TokioIo, TokioTimer};
 use hyper_util::service::TowerToHyperService;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
+use tokio::task::spawn_local;
 use tokio::time::sleep;
 use tokio_io_timeout::TimeoutStream;
 
@@ -21,7 +22,7 @@ const MOST_CONNECTIONS: usize = 128;
 /// Pause after a connection that could not be accepted, for example because too many files are open.
 const PAUSE: Duration = Duration::from_millis(20);
 
-/// Answers connections with `routes`, until the server stops.
+/// Answers connections with `routes`, as tasks of the current `LocalSet`.
 pub(super) async fn serve(listener: TcpListener, routes: Router) {
     let permits = Arc::new(Semaphore::new(MOST_CONNECTIONS));
     loop {
@@ -31,7 +32,7 @@ pub(super) async fn serve(listener: TcpListener, routes: Router) {
             continue;
         };
         let service = TowerToHyperService::new(routes.clone());
-        tokio::spawn(async move {
+        spawn_local(async move {
             let mut protocol = http1::Builder::new();
             protocol.timer(TokioTimer::new()).header_read_timeout(STEP_TIMEOUT);
             let mut stream = TimeoutStream::new(stream);

@@ -17,6 +17,7 @@ use flap_sweep::plan::Plan;
 use flap_sweep::run::RunOptions;
 use tokio::net::TcpListener as Listener;
 use tokio::sync::oneshot::{self, Sender};
+use tokio::task::LocalSet;
 
 use crate::guard::Guard;
 use crate::opened::{self, Opened};
@@ -106,11 +107,12 @@ impl Server {
             runtime.block_on(async {
                 // An open listener is always accepted here.
                 let Ok(listener) = Listener::from_std(listener) else { return };
-                tokio::spawn(connections::serve(listener, routes::routes(Arc::clone(&state))));
+                let tasks = LocalSet::new();
+                tasks.spawn_local(connections::serve(listener, routes::routes(state)));
                 // `stop` sends the message; an error means that the server was dropped.
-                let _ = stopped.await;
+                let _ = tasks.run_until(stopped).await;
+                // The drop of the tasks closes the connections and cancels their requests.
             });
-            state.stop();
             runtime.shutdown_timeout(Duration::from_secs(1));
         };
         let thread = std::thread::Builder::new().name("flap-live".to_owned()).spawn(serve);

@@ -13,7 +13,7 @@ use tokio::time::timeout;
 
 use super::answers;
 use super::connections::STEP_TIMEOUT;
-use super::state::{Kind, ServerState};
+use super::state::{Answer, CancelOnDrop, ServerState, answer_of};
 use crate::request::Refused;
 
 /// Largest size of a request in bytes.
@@ -48,14 +48,14 @@ async fn api(State(state): State<Arc<ServerState>>, Path(kind): Path<String>, re
     if let Err(rejection) = state.guard.check(&head.uri, &head.headers, false) {
         return answers::rejected(&rejection);
     }
-    let Some(kind) = Kind::named(&kind) else {
+    let Some(compute) = answer_of(&kind) else {
         return answers::refusal(StatusCode::NOT_FOUND, "there is no such request");
     };
     if head.method != Method::POST {
         return answers::refusal(StatusCode::METHOD_NOT_ALLOWED, "requests must use POST");
     }
     match read(&head.headers, body).await {
-        Ok(body) => answer(state, kind, body).await,
+        Ok(body) => answer(state, compute, body).await,
         Err(refusal) => refusal,
     }
 }
@@ -75,17 +75,14 @@ async fn read(headers: &HeaderMap, body: Body) -> Result<Vec<u8>, Response> {
 }
 
 /// Returns the answer to a request, which another thread computes.
-async fn answer(state: Arc<ServerState>, kind: Kind, body: Vec<u8>) -> Response {
-    // Dropped with this future if the page closes the connection.
-    let cancel = match state.begin(kind, &body) {
-        Ok(cancel) => cancel,
-        Err(refused) => return answers::refused(refused),
-    };
+async fn answer(state: Arc<ServerState>, compute: Answer, body: Vec<u8>) -> Response {
+    // Dropped with this future if the page closes the connection, or if the server stops.
+    let cancel = CancelOnDrop::default();
     let Ok(_permit) = state.permits.acquire().await else {
         return answers::refusal(StatusCode::SERVICE_UNAVAILABLE, "the server is shutting down");
     };
     let (worker, stop) = (Arc::clone(&state), cancel.flag());
-    let worked = tokio::task::spawn_blocking(move || worker.answer(kind, &body, &stop)).await;
+    let worked = tokio::task::spawn_blocking(move || compute(&worker.context(&stop), &body)).await;
     let answered = worked.unwrap_or_else(|error| Err(Refused::Fault(error.to_string())));
     answered.map_or_else(answers::refused, answers::json)
 }

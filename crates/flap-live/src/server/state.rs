@@ -11,10 +11,9 @@ use tokio::sync::Semaphore;
 use crate::answer::{self, AnswerContext};
 use crate::description::Description;
 use crate::guard::Guard;
-use crate::latest::Latest;
 use crate::opened::Opened;
 use crate::page;
-use crate::request::{Refused, RequestOrder};
+use crate::request::Refused;
 
 /// Largest number of requests that are computed at the same time. Further requests wait, so that memory is bounded.
 const MOST_AT_ONCE: usize = 4;
@@ -24,39 +23,27 @@ pub(super) struct ServerState {
     pub(super) guard: Guard,
     opened: Opened,
     run: RunOptions,
-    latest: Latest,
     pub(super) permits: Semaphore,
 }
 
-/// The kinds of requests.
-#[derive(Clone, Copy)]
-pub(super) enum Kind {
-    Family,
-    Point,
-    Motion,
-    Hysteresis,
-    Save,
-}
+/// Computes the answer to a request from the body of the request. The answer and the body are JSON.
+pub(super) type Answer = fn(&AnswerContext<'_>, &[u8]) -> Result<Vec<u8>, Refused>;
 
-impl Kind {
-    /// Returns the kind of request that has this name in addresses.
-    pub(super) fn named(name: &str) -> Option<Kind> {
-        let kinds = [Kind::Family, Kind::Point, Kind::Motion, Kind::Hysteresis, Kind::Save];
-        kinds.into_iter().find(|kind| kind.name() == name)
-    }
-
-    fn name(self) -> &'static str {
-        match self {
-            Kind::Family => "family",
-            Kind::Point => "point",
-            Kind::Motion => "motion",
-            Kind::Hysteresis => "hysteresis",
-            Kind::Save => "save",
-        }
-    }
+/// Returns the function that answers the kind of request with this name in addresses.
+pub(super) fn answer_of(kind: &str) -> Option<Answer> {
+    let answer: Answer = match kind {
+        "family" => |context, body| written(&answer::family(context, &read(body)?)?),
+        "point" => |context, body| written(&answer::point(context, &read(body)?)?),
+        "motion" => |context, body| written(&answer::motion(context, &read(body)?)?),
+        "hysteresis" => |context, body| written(&answer::hysteresis(context, &read(body)?)?),
+        "save" => |context, body| written(&answer::save(context, &read(body)?)?),
+        _ => return None,
+    };
+    Some(answer)
 }
 
 /// The flag of a request. The flag is set when the request is dropped, because nobody then waits for the answer.
+#[derive(Default)]
 pub(super) struct CancelOnDrop(Arc<AtomicBool>);
 
 impl Drop for CancelOnDrop {
@@ -74,12 +61,7 @@ impl CancelOnDrop {
 
 impl ServerState {
     pub(super) fn new(opened: Opened, guard: Guard, run: RunOptions) -> ServerState {
-        ServerState { guard, opened, run, latest: Latest::default(), permits: Semaphore::new(MOST_AT_ONCE) }
-    }
-
-    /// Cancels all requests.
-    pub(super) fn stop(&self) {
-        self.latest.stop();
+        ServerState { guard, opened, run, permits: Semaphore::new(MOST_AT_ONCE) }
     }
 
     /// Returns the page.
@@ -89,25 +71,9 @@ impl ServerState {
         Ok(page::live(&format!("{} · flap live", self.opened.plan().source().name), &data))
     }
 
-    /// Starts a request, and cancels older requests of the same kind from the same page.
-    pub(super) fn begin(&self, kind: Kind, body: &[u8]) -> Result<CancelOnDrop, Refused> {
-        if let Kind::Save = kind {
-            return Ok(CancelOnDrop(Arc::default()));
-        }
-        let RequestOrder { page, number } = read(body)?;
-        self.latest.begin(&page, kind.name(), number).map(CancelOnDrop).ok_or(Refused::Superseded)
-    }
-
-    /// Returns the answer to a request, as JSON.
-    pub(super) fn answer(&self, kind: Kind, body: &[u8], stop: &AtomicBool) -> Result<Vec<u8>, Refused> {
-        let context = AnswerContext { opened: &self.opened, options: self.run, stop };
-        match kind {
-            Kind::Family => written(&answer::family(&context, &read(body)?)?),
-            Kind::Point => written(&answer::point(&context, &read(body)?)?),
-            Kind::Motion => written(&answer::motion(&context, &read(body)?)?),
-            Kind::Hysteresis => written(&answer::hysteresis(&context, &read(body)?)?),
-            Kind::Save => written(&answer::save(&context, &read(body)?)?),
-        }
+    /// Returns what an answer needs. The flag `stop` cancels the answer.
+    pub(super) fn context<'a>(&'a self, stop: &'a AtomicBool) -> AnswerContext<'a> {
+        AnswerContext { opened: &self.opened, options: self.run, stop }
     }
 }
 

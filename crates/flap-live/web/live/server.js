@@ -1,5 +1,5 @@
 // @ts-check
-// Requests to the server. Each has a number, and a newer request of its kind cancels the older one.
+// Requests to the server. A newer request of a kind closes the connection of the older one, which cancels it.
 
 /** Time between two attempts to reach a server that does not answer, in milliseconds. */
 const RETRY = 1000;
@@ -23,9 +23,6 @@ export class ServerError extends Error {
 }
 
 const token = new URLSearchParams(location.search).get("token") ?? "";
-const pageName = Array.from(crypto.getRandomValues(new Uint32Array(2)), (part) => part.toString(36)).join("");
-/** @type {Map<string, number>} */
-const numbers = new Map();
 /** @type {Map<string, AbortController>} */
 const running = new Map();
 
@@ -77,24 +74,22 @@ const waitForServer = () => {
 export const request = async (kind, body, lane = "") => {
   const queue = kind + lane;
   running.get(queue)?.abort();
-  const number = (numbers.get(queue) ?? 0) + 1;
   const control = new AbortController();
-  numbers.set(queue, number);
   running.set(queue, control);
   try {
     const answer = await fetch(`/api/${kind}`, {
       method: "POST",
       signal: control.signal,
       headers: { "Content-Type": "application/json", "X-Flap-Token": token },
-      body: JSON.stringify({ page: pageName + lane, number, ...body }),
+      body: JSON.stringify(body),
     });
     const found = await answer.json();
     restore();
-    if (number !== numbers.get(queue) || answer.status === 409) return null;
+    if (control.signal.aborted) return null;
     if (!answer.ok) throw new ServerError(answer.status, found);
     return found;
   } catch (error) {
-    if (number !== numbers.get(queue) || (error instanceof Error && error.name === "AbortError")) return null;
+    if (error instanceof Error && error.name === "AbortError") return null;
     if (error instanceof ServerError) throw error;
     waitForServer();
     throw new ServerError(0, { error: "the server does not answer" });
