@@ -6,12 +6,15 @@ use std::sync::LazyLock;
 
 use csv::StringRecord;
 use flap_core::simulate::Status;
-use flap_sweep::notation::expression::{Expression, ExpressionError, Kind, Meaning, Mistake, Scope};
+use flap_sweep::notation::expression::{
+    Expression, ExpressionError, Kind, Meaning, Mistake, Scope, units_in,
+};
 use flap_sweep::notation::units;
+use flap_sweep::table::labels;
 
+use super::columns;
 use super::columns::Table;
 use super::source::Source;
-use super::{columns, quantity};
 use crate::args::Filter;
 use crate::failure::Failure;
 use crate::table::six_digits;
@@ -111,10 +114,10 @@ impl Filters {
             }
             Filter::Comparison(text) => {
                 let names = source.names().to_vec();
-                let units = (0..names.len()).map(|column| source.unit(column)).collect();
-                let plain = quantity::without_units(text, &names, |column| source.unit(column))?;
-                let compared = Compared::of(&plain);
-                let expression = comparison(text, &plain, &Names { names: &names, compared: &compared })?;
+                let units: Vec<String> = (0..names.len()).map(|column| source.unit(column)).collect();
+                let compared = Compared::of(text);
+                let scope = Names { names: &names, units: &units, compared: &compared };
+                let expression = comparison(text, &scope)?;
                 let texts = names.iter().enumerate().filter(|(_, name)| compared.is_text(name));
                 let texts = texts.map(|(column, name)| TextColumn::new(column, name)).collect();
                 let words = compared.words.into_iter().map(str::to_owned).collect();
@@ -301,16 +304,16 @@ impl<'t> Compared<'t> {
     }
 }
 
-/// The names of columns.
+/// The names and the units of columns.
 struct Names<'n> {
     names: &'n [String],
+    units: &'n [String],
     compared: &'n Compared<'n>,
 }
 
 impl Scope for Names<'_> {
     fn meaning(&self, name: &str) -> Option<Meaning<'_>> {
-        let mut known = self.names.iter().map(String::as_str);
-        let column = known.position(|known| known == name)?;
+        let column = self.names.iter().position(|known| known == name)?;
         Some(match name {
             "status" => Meaning::Choice(column, STATUSES.as_slice()),
             "branch" => Meaning::Choice(column, BRANCHES),
@@ -323,10 +326,32 @@ impl Scope for Names<'_> {
     fn names(&self) -> Vec<String> {
         self.names.to_vec()
     }
+
+    fn has_units(&self) -> bool {
+        true
+    }
+
+    /// The cells of a measure are in its own unit, such as mN, and not in SI units.
+    fn unit(&self, name: &str) -> Option<String> {
+        let column = self.names.iter().position(|known| known == name)?;
+        Some(self.units[column].clone())
+    }
 }
 
-/// Parses the comparison `plain`, which has no units. `text` is the comparison as the user wrote it, for messages.
-fn comparison(text: &str, plain: &str, scope: &Names<'_>) -> Result<Expression, Failure> {
+/// Returns the comparison `text` with printed units, such as `µN·m/rad`.
+pub(crate) fn printed(text: &str) -> String {
+    let (mut shown, mut copied) = (String::new(), 0);
+    for unit in units_in(text) {
+        shown += text[copied..unit.start].trim_end();
+        shown += " ";
+        shown += &labels::printed(&text[unit.clone()]);
+        copied = unit.end;
+    }
+    shown + &text[copied..]
+}
+
+/// Parses the comparison `text`.
+fn comparison(text: &str, scope: &Names<'_>) -> Result<Expression, Failure> {
     let refused = |error: ExpressionError| {
         let failure = Failure::usage(format!("--where {text}: {}", error.message));
         match error.mistake {
@@ -340,12 +365,12 @@ fn comparison(text: &str, plain: &str, scope: &Names<'_>) -> Result<Expression, 
             _ => failure.helps(error.help),
         }
     };
-    let expression = Expression::parse(plain, scope).map_err(|errors| {
+    let expression = Expression::parse(text, scope).map_err(|errors| {
         errors.into_iter().next().map_or_else(|| Failure::usage(format!("--where {text}")), &refused)
     })?;
     match expression.kind() {
         Kind::Condition => Ok(expression),
-        Kind::Number => Err(refused(ExpressionError::mismatch(0..plain.len(), Kind::Condition))),
+        Kind::Number => Err(refused(ExpressionError::mismatch(0..text.len(), Kind::Condition))),
     }
 }
 
@@ -384,5 +409,14 @@ mod tests {
         }
         assert!(number("measure", "deg", "60 V").is_err());
         assert!(matches!(number("measure", "", "up"), Ok(None)));
+    }
+
+    #[test]
+    fn units_are_printed_as_in_books() {
+        assert_eq!(
+            printed("hinge_stiffness>90uN*m/rad and x2 < 1 %"),
+            "hinge_stiffness>90 µN·m/rad and x2 < 1 %"
+        );
+        assert_eq!(printed("x2 > 1"), "x2 > 1");
     }
 }

@@ -4,5 +4,4 @@ pub(crate) mod axes;
 pub(crate) mod columns;
 pub(crate) mod filter;
 pub(crate) mod levels;
-pub(crate) mod quantity;
 pub(crate) mod source;

@@ -8,7 +8,7 @@ use crate::args::{Aim, Filter, PictureKind};
 use crate::console;
 use crate::data::axes::Axes;
 use crate::data::columns::{Cells, Column, Table};
-use crate::data::{filter, quantity};
+use crate::data::filter;
 use crate::failure::Failure;
 
 /// The contents of a picture.
@@ -50,7 +50,7 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
         .map(|(column, value)| format!("{} {}", table.label(*column).words, shown(table, *column, value)))
         .collect();
     notes.extend(request.args.filters.iter().filter_map(|filter| match filter {
-        Filter::Comparison(text) => Some(quantity::printed(text)),
+        Filter::Comparison(text) => Some(filter::printed(text)),
         Filter::Equal(..) => None,
     }));
     let mut hidden = hidden(&columns, &axes);

@@ -62,11 +62,7 @@ fn listed(table: &Table, column: usize, levels: &Levels) -> String {
 /// Chooses the middle value of each axis in `axes`. The picture does not show the axes in `axes`.
 ///
 /// Returns the rows with the chosen values, and for each chosen value a message and a note for the picture.
-pub(super) fn sliced(
-    table: &Table,
-    axes: &[usize],
-    mut rows: Vec<usize>,
-) -> (Vec<usize>, Vec<[String; 2]>) {
+pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> (Vec<usize>, Vec<[String; 2]>) {
     let mut chosen = Vec::new();
     for &axis in axes {
         let levels = Levels::of(table, axis, &rows);

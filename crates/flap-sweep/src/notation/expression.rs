@@ -14,9 +14,13 @@ mod scope;
 #[cfg(test)]
 mod tests;
 
+use std::ops::Range;
+
+use super::units;
 pub use error::{ExpressionError, Mistake};
 use evaluate::Operation;
 pub(crate) use evaluate::of_choice;
+use parse::{Token, Tokens};
 pub use scope::{Kind, Meaning, Scope};
 
 /// Returns true if `name` is allowed for a new name in expressions.
@@ -27,6 +31,21 @@ pub fn is_free_name(name: &str) -> bool {
         && !["and", "or", "not"].contains(&name)
         && evaluate::find(name).is_none()
         && name != evaluate::PI.0
+}
+
+/// Returns the positions of the bytes of the units in `text`, in which numbers may have units.
+pub fn units_in(text: &str) -> Vec<Range<usize>> {
+    let mut tokens = Tokens::new(text, true);
+    let mut found = Vec::new();
+    while let Ok((token, span)) = tokens.next()
+        && token != Token::End
+    {
+        if let Token::Quantity(quantity) = token {
+            let (_, number) = units::decimal(quantity);
+            found.push(span.end - quantity[number..].trim_start().len()..span.end);
+        }
+    }
+    found
 }
 
 /// An expression without mistakes.

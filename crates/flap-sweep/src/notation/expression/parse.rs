@@ -18,15 +18,18 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operatio
         return Err(vec![ExpressionError::new(0..text.len(), "the expression is empty")]);
     }
     let mut parser = Parser {
-        tokens: Tokens::new(text),
+        tokens: Tokens::new(text, scope.has_units()),
         next: (Token::End, 0..0),
+        consumed: Vec::new(),
         scope,
         operations: Vec::new(),
         errors: Vec::new(),
+        unit_errors: Vec::new(),
         nested: 0,
     };
     let whole = parser.expression();
     let mut errors = parser.errors;
+    errors.append(&mut parser.unit_errors);
     match whole {
         Ok(operand) if errors.is_empty() => Ok((operand.kind.unwrap_or(Kind::Number), parser.operations)),
         Ok(_) => Err(errors),
@@ -47,10 +50,14 @@ struct Operand {
 struct Parser<'a> {
     tokens: Tokens<'a>,
     next: (Token<'a>, Range<usize>),
+    /// All tokens before the next token.
+    consumed: Vec<Token<'a>>,
     scope: &'a dyn Scope,
     operations: Vec<Operation>,
     /// Mistakes that do not prevent a check of the rest of the text.
     errors: Vec<ExpressionError>,
+    /// Mistakes in numbers with units, which are reported after mistakes in names.
+    unit_errors: Vec<ExpressionError>,
     nested: usize,
 }
 
@@ -67,7 +74,9 @@ impl<'a> Parser<'a> {
     /// Consumes the next token.
     fn advance(&mut self) -> Result<(Token<'a>, Range<usize>), ExpressionError> {
         let next = self.tokens.next()?;
-        Ok(std::mem::replace(&mut self.next, next))
+        let token = std::mem::replace(&mut self.next, next);
+        self.consumed.push(token.0);
+        Ok(token)
     }
 
     fn is_next(&self, sign: &str) -> bool {
@@ -80,7 +89,9 @@ impl<'a> Parser<'a> {
             return self.advance().map(|(_, span)| span);
         }
         match self.next.0 {
-            Token::Number(_) | Token::Name(_) | Token::Text(_) => Err(self.no_operator()),
+            Token::Number(_) | Token::Quantity(_) | Token::Name(_) | Token::Text(_) => {
+                Err(self.no_operator())
+            }
             Token::Sign(_) | Token::End => Err(self.expected(expected)),
         }
     }
@@ -155,6 +166,10 @@ impl<'a> Parser<'a> {
                 self.operations.push(Operation::Push(number));
                 Ok(Operand { kind: Some(Kind::Number), span })
             }
+            Token::Quantity(quantity) => {
+                self.advance()?;
+                Ok(self.quantity(quantity, span))
+            }
             Token::Name("not") => self.unary(Some(|a| 1.0 - a), precedence::NOT, Kind::Condition),
             Token::Sign("-") => self.unary(Some(|a: f64| -a), precedence::SIGN, Kind::Number),
             Token::Sign("+") => self.unary(None, precedence::SIGN, Kind::Number),
@@ -169,6 +184,48 @@ impl<'a> Parser<'a> {
                 if self.is_next("(") { self.call(name, span) } else { self.named(name, span) }
             }
             _ => Err(self.expected("a number, a name or `(`")),
+        }
+    }
+
+    /// Returns the operand of the number with a unit that was consumed. The number is converted to the unit of the name
+    /// with which the number is compared.
+    fn quantity(&mut self, quantity: &str, span: Range<usize>) -> Operand {
+        let unit = self.compared().and_then(|name| Some((name, self.scope.unit(name)?)));
+        let converted = match unit {
+            Some((name, unit)) => units::parse_in(quantity, &unit).map_err(|error| ExpressionError {
+                help: error.help(),
+                ..ExpressionError::new(span.clone(), error.message(name))
+            }),
+            None => {
+                let message = format!("`{quantity}` is not compared with a column");
+                let help = "a number with a unit stands beside a column: drive_frequency > 95 Hz";
+                Err(ExpressionError::new(span.clone(), message).helps(help))
+            }
+        };
+        let kind = converted.as_ref().ok().map(|_| Kind::Number);
+        match converted {
+            Ok(number) => self.operations.push(Operation::Push(number)),
+            Err(error) => self.unit_errors.push(error),
+        }
+        Operand { kind, span }
+    }
+
+    /// Returns the name with which the last consumed number is compared. The name is the token before or after the sign
+    /// of the comparison.
+    fn compared(&self) -> Option<&'a str> {
+        let is_comparison = |token: &Token<'_>| matches!(infix(token), Some((_, precedence::COMPARISON)));
+        let before = self.consumed.iter().rev().skip(1);
+        let mut before = before.skip_while(|token| matches!(token, Token::Sign("+" | "-")));
+        let name = if before.next().is_some_and(is_comparison) {
+            before.next().copied()
+        } else if is_comparison(&self.next.0) {
+            self.tokens.clone().next().ok().map(|(token, _)| token)
+        } else {
+            None
+        };
+        match name {
+            Some(Token::Name(name)) => Some(name),
+            _ => None,
         }
     }
 
@@ -327,6 +384,8 @@ fn infix(token: &Token<'_>) -> Option<&'static Operator> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Token<'t> {
     Number(f64),
+    /// A number with a unit.
+    Quantity(&'t str),
     /// A name, which may contain dots: `preset.wing_area`. In tokens, the words `and`, `or` and `not` are names.
     Name(&'t str),
     /// Text in quotes, without the quotes.
@@ -344,14 +403,17 @@ const FOREIGN: [(&str, &str); 6] =
     [("**", "^ for powers"), ("&&", "and"), ("||", "or"), ("<>", "!="), ("=", "== to compare"), ("!", "not")];
 
 /// Iterator over the tokens of a text.
+#[derive(Clone)]
 pub(super) struct Tokens<'t> {
     text: &'t str,
     at: usize,
+    /// True if numbers may have units.
+    has_units: bool,
 }
 
 impl<'t> Tokens<'t> {
-    pub(super) fn new(text: &'t str) -> Tokens<'t> {
-        Tokens { text, at: 0 }
+    pub(super) fn new(text: &'t str, has_units: bool) -> Tokens<'t> {
+        Tokens { text, at: 0, has_units }
     }
 
     /// Returns the next token with the position of its bytes. After the last token, always returns [`Token::End`].
@@ -362,7 +424,7 @@ impl<'t> Tokens<'t> {
             return Ok((Token::End, self.at..self.at));
         };
         let found = match first {
-            '0'..='9' | '.' => number(rest),
+            '0'..='9' | '.' => number(rest, self.has_units),
             'a'..='z' | 'A'..='Z' | '_' => Ok(name(rest)),
             '\'' | '"' => quoted(rest, first),
             _ => sign(rest, first),
@@ -386,8 +448,14 @@ fn is_name(character: char) -> bool {
     character.is_ascii_alphanumeric() || character == '_'
 }
 
-fn number(rest: &str) -> Found<'_> {
+fn number(rest: &str, has_units: bool) -> Found<'_> {
     let (_, end) = units::decimal(rest);
+    let unit = rest[end..].trim_start();
+    let length = if has_units && rest[..end].parse::<f64>().is_ok() { unit_length(unit) } else { 0 };
+    if length > 0 {
+        let length = rest.len() - unit.len() + length;
+        return Ok((Token::Quantity(&rest[..length]), length));
+    }
     // Characters that continue a number are a mistake: `2x`, `1.2.3`, `1_000`.
     let run = end + rest[end..].find(|c: char| !is_name(c) && c != '.').unwrap_or(rest.len() - end);
     match rest[..end].parse::<f64>() {
@@ -399,6 +467,17 @@ fn number(rest: &str) -> Found<'_> {
             .helps("numbers look like 12, 0.5 or 1.5e-6; products need a `*`")
             .of(Mistake::NoOperator)),
     }
+}
+
+/// Returns the number of bytes of the unit at the beginning of `text`; 0 if `text` does not begin with a unit.
+fn unit_length(text: &str) -> usize {
+    let word = text.find(|letter| !is_name(letter)).unwrap_or(text.len());
+    let is_unit = text.starts_with(|letter: char| letter.is_alphabetic() || "°%".contains(letter));
+    if !is_unit || ["and", "or", "not"].contains(&&text[..word]) {
+        return 0;
+    }
+    let is_part = |letter: char| letter.is_alphanumeric() || "*/^·°%-".contains(letter);
+    text.find(|letter| !is_part(letter)).unwrap_or(text.len())
 }
 
 fn name(rest: &str) -> (Token<'_>, usize) {

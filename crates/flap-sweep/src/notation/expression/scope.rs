@@ -38,4 +38,15 @@ pub trait Scope {
 
     /// Returns all names, for suggestions after a misspelling.
     fn names(&self) -> Vec<String>;
+
+    /// Returns true if numbers may have units beside the name with which they are compared: `drive_frequency > 95 Hz`.
+    fn has_units(&self) -> bool {
+        false
+    }
+
+    /// Returns the unit of the values of `name`, to which a number with a unit is converted. The unit of pure numbers is
+    /// empty. `None` for an unknown name.
+    fn unit(&self, _name: &str) -> Option<String> {
+        None
+    }
 }

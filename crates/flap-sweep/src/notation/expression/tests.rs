@@ -206,6 +206,76 @@ fn mistakes_say_what_and_where() {
     }
 }
 
+/// Columns with units: a frequency, a stiffness and a pure number.
+struct Columns;
+
+impl Scope for Columns {
+    fn meaning(&self, name: &str) -> Option<Meaning<'_>> {
+        let place = ["drive_frequency", "hinge_stiffness", "x2"].iter().position(|known| *known == name);
+        if name == "arms" { Some(Meaning::Choice(3, &["95 Hz"])) } else { place.map(Meaning::Number) }
+    }
+
+    fn names(&self) -> Vec<String> {
+        ["drive_frequency", "hinge_stiffness", "x2", "arms"].map(str::to_owned).to_vec()
+    }
+
+    fn has_units(&self) -> bool {
+        true
+    }
+
+    fn unit(&self, name: &str) -> Option<String> {
+        let units = [("drive_frequency", "Hz"), ("hinge_stiffness", "N*m/rad"), ("x2", ""), ("arms", "")];
+        units.iter().find(|(known, _)| *known == name).map(|(_, unit)| (*unit).to_owned())
+    }
+}
+
+#[test]
+fn numbers_with_units_are_in_the_units_of_their_columns() {
+    for (text, wanted) in [
+        ("drive_frequency > 95 Hz", "drive_frequency > 95.0"),
+        ("drive_frequency>0.1kHz", "drive_frequency>100.0"),
+        ("95 Hz <= drive_frequency and x2 < 3", "95.0 <= drive_frequency and x2 < 3"),
+        ("hinge_stiffness > 90 uN*m/rad or (x2 > 1)", "hinge_stiffness > 9e-5 or (x2 > 1)"),
+        ("drive_frequency > -5 Hz", "drive_frequency > -5.0"),
+        ("-5 Hz < drive_frequency", "-5.0 < drive_frequency"),
+        ("drive_frequency > 5 Hz + 1", "drive_frequency > 5.0 + 1"),
+        ("2 * drive_frequency > 1 kHz", "2 * drive_frequency > 1000"),
+        ("x2<0.08 %", "x2<0.0008"),
+        ("x2 > 5% and x2 < 10 %", "x2 > 0.05 and x2 < 0.1"),
+        ("x2 > 1e3 and not x2 == 7", "x2 > 1e3 and not x2 == 7"),
+        ("arms == '95 Hz'", "arms == '95 Hz'"),
+    ] {
+        let operations =
+            |text: &str| format!("{:?}", Expression::parse(text, &Columns).expect(text).operations);
+        assert_eq!(operations(text), operations(wanted), "{text}");
+    }
+}
+
+#[test]
+fn numbers_with_units_that_fit_no_column_are_refused() {
+    let cases: [(&str, &[(&str, &str)]); 8] = [
+        ("drive_frequency > 95 V", &[("95 V", "`V` is a voltage, but drive_frequency is in Hz")]),
+        ("drive_frequency > 95 Hx", &[("95 Hx", "unknown unit `Hx`")]),
+        (
+            "95 Hz < drive_freqency",
+            &[("drive_freqency", "unknown name `drive_freqency`"), ("95 Hz", "`95 Hz` is not compared")],
+        ),
+        ("(95 Hz) < drive_frequency", &[("95 Hz", "`95 Hz` is not compared with a column")]),
+        ("95 Hz + 1 < drive_frequency", &[("95 Hz", "`95 Hz` is not compared with a column")]),
+        ("95 Hz < abs(x2)", &[("95 Hz", "`95 Hz` is not compared with a column")]),
+        ("95 Hz and x2 > 1", &[("95 Hz", "`95 Hz` is not compared with a column")]),
+        ("x2 > 2 3 Hz", &[("3 Hz", "expected an operator")]),
+    ];
+    for (text, expected) in cases {
+        let errors = Expression::parse(text, &Columns).expect_err(text);
+        assert_eq!(errors.len(), expected.len(), "{text}: {errors:?}");
+        for (error, (part, message)) in errors.iter().zip(expected) {
+            assert_eq!(&text[error.span.clone()], *part, "{text}");
+            assert!(error.message.contains(message), "{text}: {}", error.message);
+        }
+    }
+}
+
 #[test]
 fn hostile_nesting_is_refused() {
     for piece in ["(", "-", "not ", "sin(", "2^", "min(1,"] {

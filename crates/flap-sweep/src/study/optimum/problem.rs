@@ -6,8 +6,7 @@ use super::answer::Optimum;
 use super::limit::Limit;
 use super::region::Region;
 use crate::notation::expression::{Expression, ExpressionError, Kind, Meaning, Scope};
-use crate::notation::quantity::without_units;
-use crate::notation::{UserError, nearest, text};
+use crate::notation::text;
 use crate::plan::formula::{Condition, OwnMeasure};
 use crate::plan::{Plan, Value};
 
@@ -197,10 +196,7 @@ fn without_bounds(parameter: &Parameter) -> ProblemError {
 fn parsed(plan: &Plan, text: &str, part: ProblemPart, wanted: Kind) -> Result<Expression, ProblemError> {
     let names = Names { plan };
     let refused = |message: String, help: Option<String>| ProblemError { part, message, help };
-    let unit = |name: &str| names.unit(name).ok_or_else(|| unknown(&names, name));
-    let plain =
-        without_units(text, unit, |error| error).map_err(|error| refused(error.message, error.help))?;
-    let expression = Expression::parse(&plain, &names).map_err(|errors| {
+    let expression = Expression::parse(text, &names).map_err(|errors| {
         let explained = |error: &ExpressionError| {
             let listed = || format!("measures are {}", text::listed(plan.measured(), "measure"));
             let help = error.help.clone().or_else(|| error.message.contains("name").then(listed));
@@ -220,29 +216,12 @@ fn parsed(plan: &Plan, text: &str, part: ProblemPart, wanted: Kind) -> Result<Ex
     })
 }
 
-fn unknown(names: &Names<'_>, name: &str) -> UserError {
-    let known = names.names();
-    let near = nearest(name, known.iter().map(String::as_str));
-    let message = format!("there is no measure or parameter `{name}`");
-    UserError { message, help: near.map(|near| format!("did you mean `{near}`?")) }
-}
-
 /// The names that a problem may use: parameters, measures of the model, and measures of the plan.
 struct Names<'p> {
     plan: &'p Plan,
 }
 
 impl Names<'_> {
-    /// The unit of a parameter or measure.
-    fn unit(&self, name: &str) -> Option<String> {
-        if let Some(index) = Parameter::index(self.plan.parameters(), name) {
-            return Some(self.plan.parameters()[index].unit.to_owned());
-        }
-        let column = self.plan.rows().columns().iter().find(|column| column.name == name);
-        let own = || self.plan.measures().iter().any(|own| own.name == name).then(String::new);
-        column.map(|column| column.unit.to_owned()).or_else(own)
-    }
-
     fn of_parameter(&self, index: usize) -> Meaning<'_> {
         let index = self.plan.standing(index);
         let unset = match self.plan.base()[index] {
@@ -278,5 +257,18 @@ impl Scope for Names<'_> {
     fn names(&self) -> Vec<String> {
         let parameters = self.plan.parameters().iter().map(|parameter| parameter.name.to_owned());
         self.plan.measured().map(str::to_owned).chain(parameters).collect()
+    }
+
+    fn has_units(&self) -> bool {
+        true
+    }
+
+    fn unit(&self, name: &str) -> Option<String> {
+        if let Some(index) = Parameter::index(self.plan.parameters(), name) {
+            return Some(self.plan.parameters()[index].unit.to_owned());
+        }
+        let column = self.plan.rows().columns().iter().find(|column| column.name == name);
+        let own = || self.plan.measures().iter().any(|own| own.name == name).then(String::new);
+        column.map(|column| column.unit.to_owned()).or_else(own)
     }
 }
