@@ -53,6 +53,8 @@ pub fn units_in(text: &str) -> Vec<Range<usize>> {
 pub struct Expression {
     kind: Kind,
     operations: Vec<Operation>,
+    /// Positions of the bytes of the comparisons of two numbers, in the order of the text.
+    comparisons: Vec<Range<usize>>,
 }
 
 impl Expression {
@@ -61,7 +63,8 @@ impl Expression {
     /// # Errors
     /// All mistakes in names, or the first mistake of another kind. Spans are positions of bytes in `text`.
     pub fn parse(text: &str, scope: &dyn Scope) -> Result<Expression, Vec<ExpressionError>> {
-        parse::parse(text, scope).map(|(kind, operations)| Expression { kind, operations })
+        let (kind, operations, comparisons) = parse::parse(text, scope)?;
+        Ok(Expression { kind, operations, comparisons })
     }
 
     /// Returns the type of the expression: a number or a condition.
@@ -83,10 +86,11 @@ impl Expression {
         evaluate::evaluate(&self.operations, values)
     }
 
-    /// The comparisons that must all hold, in the order of the text. `None` if the expression is not made of
-    /// comparisons by `<`, `<=`, `>` and `>=` that are joined with `and`.
-    pub(crate) fn comparisons(&self) -> Option<Vec<Comparison>> {
-        comparisons(&self.operations)
+    /// The comparisons that must all hold, each with the position of its bytes in the text. `None` if the expression is
+    /// not made of comparisons by `<`, `<=`, `>` and `>=` that are joined with `and`.
+    pub(crate) fn comparisons(&self) -> Option<Vec<(Range<usize>, Comparison)>> {
+        let comparisons = comparisons(&self.operations)?;
+        Some(self.comparisons.iter().cloned().zip(comparisons).collect())
     }
 }
 
@@ -115,8 +119,11 @@ fn comparisons(operations: &[Operation]) -> Option<Vec<Comparison>> {
         ">=" => (false, false),
         _ => return None,
     };
-    let [left, right] =
-        [left, right].map(|side| Expression { kind: Kind::Number, operations: side.to_vec() });
+    let [left, right] = [left.to_vec(), right.to_vec()].map(|operations| Expression {
+        kind: Kind::Number,
+        operations,
+        comparisons: Vec::new(),
+    });
     let (less, more) = if is_rising { (left, right) } else { (right, left) };
     Some(vec![Comparison { less, more, is_strict, is_rising }])
 }

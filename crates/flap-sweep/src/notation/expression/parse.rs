@@ -12,8 +12,11 @@ use crate::notation::{nearest, text, units};
 /// overflow the stack.
 const MOST_NESTED: usize = 100;
 
+/// The parts of an expression: its kind, its operations, and the positions of the comparisons of two numbers.
+type Parsed = (Kind, Vec<Operation>, Vec<Range<usize>>);
+
 /// Checks `text`. See [`super::Expression::parse`].
-pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operation>), Vec<ExpressionError>> {
+pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<Parsed, Vec<ExpressionError>> {
     if text.trim().is_empty() {
         return Err(vec![ExpressionError::new(0..text.len(), "the expression is empty")]);
     }
@@ -23,6 +26,7 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operatio
         consumed: Vec::new(),
         scope,
         operations: Vec::new(),
+        comparisons: Vec::new(),
         errors: Vec::new(),
         unit_errors: Vec::new(),
         nested: 0,
@@ -31,7 +35,9 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<(Kind, Vec<Operatio
     let mut errors = parser.errors;
     errors.append(&mut parser.unit_errors);
     match whole {
-        Ok(operand) if errors.is_empty() => Ok((operand.kind.unwrap_or(Kind::Number), parser.operations)),
+        Ok(operand) if errors.is_empty() => {
+            Ok((operand.kind.unwrap_or(Kind::Number), parser.operations, parser.comparisons))
+        }
         Ok(_) => Err(errors),
         Err(error) => {
             errors.push(error);
@@ -54,6 +60,7 @@ struct Parser<'a> {
     consumed: Vec<Token<'a>>,
     scope: &'a dyn Scope,
     operations: Vec<Operation>,
+    comparisons: Vec<Range<usize>>,
     /// Mistakes that do not prevent a check of the rest of the text.
     errors: Vec<ExpressionError>,
     /// Mistakes in numbers with units, which are reported after mistakes in names.
@@ -154,7 +161,11 @@ impl<'a> Parser<'a> {
         self.check_kind(operator.takes, left);
         self.check_kind(operator.takes, right);
         self.operations.push(Operation::Binary(operator));
-        Operand { kind: Some(operator.gives), span: left.span.start..right.span.end }
+        let span = left.span.start..right.span.end;
+        if (operator.takes, operator.gives) == (Kind::Number, Kind::Condition) {
+            self.comparisons.push(span.clone());
+        }
+        Operand { kind: Some(operator.gives), span }
     }
 
     /// Parses a number, a name or parentheses, optionally after a unary operator.

@@ -206,6 +206,16 @@ fn mistakes_say_what_and_where() {
     }
 }
 
+#[test]
+fn comparisons_have_their_places_in_the_text() {
+    let text = "(x + 1) < 3 and (T<4 and 2 < y ) and x > -1";
+    let comparisons =
+        Expression::parse(text, &Names).expect("an expression").comparisons().expect("comparisons");
+    let parts: Vec<&str> = comparisons.iter().map(|(span, _)| &text[span.clone()]).collect();
+    assert_eq!(parts, ["(x + 1) < 3", "T<4", "2 < y", "x > -1"]);
+    assert!(Expression::parse("x < 1 or y < 2", &Names).expect("an expression").comparisons().is_none());
+}
+
 /// Columns with units: a frequency, a stiffness and a pure number.
 struct Columns;
 

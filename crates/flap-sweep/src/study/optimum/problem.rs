@@ -111,7 +111,7 @@ impl Problem {
             let is_input = |place| plan.body().is_some_and(|body| body.has_input(place));
             let is_parameter = |place| place < plan.parameters().len() && !is_input(place);
             let is_of_parameters = expression.reads().all(is_parameter);
-            match Limit::of_condition(condition.trim(), &expression) {
+            match Limit::of_condition(&expression, |span| condition[span].to_owned()) {
                 Some(found) => limits.extend(found),
                 None if is_of_parameters => kept.push(Condition { name: condition.clone(), expression }),
                 None => {
@@ -124,7 +124,7 @@ impl Problem {
             }
         }
         for condition in plan.conditions() {
-            match Limit::of_condition(&condition.name, &condition.expression) {
+            match Limit::of_condition(&condition.expression, |_| condition.name.clone()) {
                 Some(found) => limits.extend(found),
                 None => kept.push(condition.clone()),
             }
