@@ -53,6 +53,8 @@ pub(crate) enum Failure {
     System(String, Vec<String>),
     /// An internal error in flap.
     Bug(String),
+    /// A signal stopped the command before there was a result.
+    Interrupted,
     /// The program that reads stdout closed it, as `head` does. A closed stdout is not an error.
     ClosedPipe,
 }
@@ -171,6 +173,10 @@ impl Failure {
             Failure::Bug(message) => {
                 complain(&message, &["this is an error in flap: please report it".to_owned()]);
                 Exit::Bug
+            }
+            Failure::Interrupted => {
+                console::say("interrupted: there is no result yet");
+                Exit::Interrupted
             }
             Failure::ClosedPipe => Exit::Done,
         }

@@ -74,11 +74,7 @@ pub(crate) fn run(args: &OptimiseArgs) -> Result<Exit, Failure> {
 fn search(args: &OptimiseArgs, problem: &Problem) -> Result<Exit, Failure> {
     let begun = Instant::now();
     let settings = settings(args);
-    let found = watched(args, "points and starts", |stops| optimise(problem, &settings, stops))?;
-    let best = match found {
-        Ok(best) => best,
-        Err(exit) => return Ok(exit),
-    };
+    let best = watched(args, "points and starts", |stops| optimise(problem, &settings, stops))?;
     if let Some(out) = &args.out {
         write(&problem.plan().clone().of_point(&best.values), out, args.overwrite.force)?;
     }

@@ -22,16 +22,12 @@ pub(super) fn run(
     let begun = Instant::now();
     let goals = [Goal { text: largest, aim: Aim::Largest }, Goal { text: smallest, aim: Aim::Smallest }];
     let settings = settings(args);
-    let found = watched(args, "points of the front", |stops| {
+    let front = watched(args, "points of the front", |stops| {
         front(plan, goals, &args.conditions, points as usize, &settings, stops).map_err(|error| match error {
             FrontError::Problem(place, error) => refused(args, place == 1, &error),
             FrontError::Run(error) => error.into(),
         })
     })?;
-    let front = match found {
-        Ok(front) => front,
-        Err(exit) => return Ok(exit),
-    };
     let names = [largest, smallest].map(str::trim);
     print::table(args.format, &columns(plan, names, &front), &cells(plan, names, &front), || {
         page(plan, names, &front)

@@ -9,9 +9,9 @@ use flap_sweep::run::{Progress, RunOptions};
 use flap_sweep::study::optimum::{Optimum, ProblemError, ProblemPart, Settings};
 
 use crate::args::OptimiseArgs;
-use crate::failure::{Exit, Failure};
+use crate::failure::Failure;
 use crate::progress::Bar;
-use crate::{console, system};
+use crate::system;
 
 /// Returns the failure of a problem with a mistake in its goal, or in --minimise or --maximise.
 pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemError) -> Failure {
@@ -36,13 +36,13 @@ pub(super) fn settings(args: &OptimiseArgs) -> Settings {
     }
 }
 
-/// The result of `work`. The progress counts `units`, and signals stop the work. `None` if the work was stopped, or if
-/// no computed point has a periodic motion.
+/// The result of `work`. The progress counts `units`, and signals stop the work. `work` returns `None` if it was stopped,
+/// or if no computed point has a periodic motion.
 pub(super) fn watched<T, E>(
     args: &OptimiseArgs,
     units: &'static str,
     work: impl FnOnce(&dyn Fn(u64, u64) -> bool) -> Result<Option<T>, E>,
-) -> Result<Result<T, Exit>, Failure>
+) -> Result<T, Failure>
 where
     Failure: From<E>,
 {
@@ -55,11 +55,10 @@ where
     });
     bar.borrow().clear();
     if let Some(found) = found? {
-        return Ok(Ok(found));
+        return Ok(found);
     }
     if stop.load(Ordering::Relaxed) {
-        console::say("interrupted: there is no result yet");
-        return Ok(Err(Exit::Interrupted));
+        return Err(Failure::Interrupted);
     }
     let grid = args.grid.display();
     let failure = Failure::usage(format!("no point of {grid} that was computed has a periodic motion"));

@@ -42,10 +42,7 @@ pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Res
         WrenchMapError::Mistake(error) => refused("--wrench-map", error),
         WrenchMapError::Run(error) => error.into(),
     })?;
-    let Some(map) = map else {
-        console::say("interrupted: there is no result yet");
-        return Ok(Exit::Interrupted);
-    };
+    let map = map.ok_or(Failure::Interrupted)?;
     if args.format == OutputFormat::Json {
         console::results(&object(&map, chosen, vehicle))?;
     } else {
