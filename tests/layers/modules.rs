@@ -48,10 +48,7 @@ const CRATES: &[(&str, &[&str])] = &[
             "lib",
         ],
     ),
-    (
-        "flap-live",
-        &["page", "request", "rows", "opened", "description", "answer", "guard", "server", "lib"],
-    ),
+    ("flap-live", &["page", "request", "rows", "opened", "description", "answer", "guard", "server", "lib"]),
     (
         "flap-cli",
         &[

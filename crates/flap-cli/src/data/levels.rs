@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use flap_sweep::notation::text;
+use serde::Serialize;
 
 use super::columns::{Cells, NO_WORD, Table};
 
@@ -17,6 +18,24 @@ pub(crate) struct Levels {
 pub(crate) enum Values {
     Numbers(Vec<f64>),
     Words(Vec<String>),
+}
+
+/// One value of a column.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
+pub(crate) enum Value {
+    Number(f64),
+    Word(String),
+}
+
+impl Value {
+    /// Returns the value in the form that users type and files contain.
+    pub(crate) fn typed(&self) -> String {
+        match self {
+            Value::Number(number) => text::float(*number),
+            Value::Word(word) => word.clone(),
+        }
+    }
 }
 
 impl Levels {
@@ -60,11 +79,11 @@ impl Levels {
         }
     }
 
-    /// Returns value number `place` in the form that users type and files contain.
-    pub(crate) fn typed(&self, place: usize) -> String {
+    /// Returns value number `place`.
+    pub(crate) fn value(&self, place: usize) -> Value {
         match &self.values {
-            Values::Numbers(values) => text::float(values[place]),
-            Values::Words(words) => words[place].clone(),
+            Values::Numbers(values) => Value::Number(values[place]),
+            Values::Words(words) => Value::Word(words[place].clone()),
         }
     }
 

@@ -5,7 +5,7 @@ mod data;
 
 use std::collections::BTreeMap;
 
-use data::{Data, Kind, Start, Value};
+use data::{Data, Kind, Start};
 
 use super::request::Request;
 use super::{kind, selection, slices};
@@ -14,6 +14,7 @@ use crate::console;
 use crate::data::axes::Axes;
 use crate::data::columns::{Cells, Table};
 use crate::data::filter::Filters;
+use crate::data::levels::Value;
 use crate::data::source::Source;
 use crate::failure::Failure;
 

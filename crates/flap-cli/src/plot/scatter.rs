@@ -105,7 +105,7 @@ impl Points {
         }
         let count = groups.len();
         let plot = |(group, points): (usize, &Vec<(f64, f64)>)| {
-            ink::points(points, &levels.typed(group), &ink::line_colour(group, count, false), 2.6)
+            ink::points(points, &levels.value(group).typed(), &ink::line_colour(group, count, false), 2.6)
         };
         groups.iter().enumerate().map(plot).collect()
     }

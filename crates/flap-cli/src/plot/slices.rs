@@ -48,7 +48,7 @@ fn prefix_question(table: &Table, column: usize, text: &str) -> Option<String> {
 /// Returns the values of a column as text: at most a dozen values.
 fn listed(table: &Table, column: usize, levels: &Levels) -> String {
     const MOST: usize = 12;
-    let text = |place| levels.typed(place);
+    let text = |place| levels.value(place).typed();
     let many = levels.len();
     let shown: Vec<String> = if many <= MOST {
         (0..many).map(text).collect()

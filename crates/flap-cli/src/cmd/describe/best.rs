@@ -5,7 +5,7 @@ use serde::Serialize;
 use crate::args::Aim;
 use crate::data::axes::{Axes, Ends};
 use crate::data::columns::Table;
-use crate::data::levels::{Levels, Values};
+use crate::data::levels::{Levels, Value, Values};
 use crate::failure::Failure;
 
 /// The best row by a measure.
@@ -31,22 +31,14 @@ pub(super) struct Axis {
     /// Number of different values.
     pub(super) values: usize,
     /// The smallest and the largest value; for words, the first and the last word.
-    pub(super) range: [AxisValue; 2],
+    pub(super) range: [Value; 2],
     /// The value of the axis in the best row.
-    pub(super) best: AxisValue,
+    pub(super) best: Value,
     /// The smallest and the largest value among the best tenth of the rows, or all words for a column of words.
-    pub(super) best_tenth: Vec<AxisValue>,
+    pub(super) best_tenth: Vec<Value>,
     /// True if the best value is the first or the last value of an axis with three or more numbers. False for parameters
     /// of a sample.
     pub(super) at_the_end: bool,
-}
-
-/// A value of an axis.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-#[serde(untagged)]
-pub(super) enum AxisValue {
-    Number(f64),
-    Word(String),
 }
 
 impl Best {
@@ -97,10 +89,6 @@ impl Axis {
     fn of(table: &Table, column: usize, best: &[usize], sampled: bool) -> Axis {
         let rows: Vec<usize> = (0..table.rows).collect();
         let levels = Levels::of(table, column, &rows);
-        let value = |level: usize| match &levels.values {
-            Values::Numbers(values) => AxisValue::Number(values[level]),
-            Values::Words(words) => AxisValue::Word(words[level].clone()),
-        };
         let mut found: Vec<usize> = best.iter().map(|&row| levels.codes[row]).collect();
         let best_level = found[0];
         found.sort_unstable();
@@ -117,9 +105,9 @@ impl Axis {
             name: described.name.clone(),
             unit: described.unit.clone(),
             values: levels.len(),
-            range: [value(0), value(levels.len() - 1)],
-            best: value(best_level),
-            best_tenth: found.into_iter().map(value).collect(),
+            range: [levels.value(0), levels.value(levels.len() - 1)],
+            best: levels.value(best_level),
+            best_tenth: found.into_iter().map(|level| levels.value(level)).collect(),
             at_the_end,
         }
     }

@@ -4,12 +4,13 @@ use std::fmt::Write as _;
 
 use flap_sweep::notation::text;
 
-use super::best::{Axis, AxisValue, Best};
+use super::best::{Axis, Best};
 use super::description::Description;
 use super::words::{WordCount, Words};
 use crate::args::OutputFormat;
 use crate::cmd::shown::Shown;
 use crate::console;
+use crate::data::levels::Value;
 use crate::failure::Failure;
 use crate::table::Table;
 
@@ -90,16 +91,16 @@ fn best(best: &Best) -> String {
 }
 
 fn line(axis: &Axis) -> [String; 8] {
-    let number = |value: &AxisValue| if let AxisValue::Number(number) = value { *number } else { f64::NAN };
+    let number = |value: &Value| if let Value::Number(number) = value { *number } else { f64::NAN };
     let shown = Shown::of_column(&axis.name, &axis.unit, axis.range.iter().map(number));
-    let text = |value: &AxisValue| match value {
-        AxisValue::Number(number) => shown.number(*number),
-        AxisValue::Word(word) => word.clone(),
+    let text = |value: &Value| match value {
+        Value::Number(number) => shown.number(*number),
+        Value::Word(word) => word.clone(),
     };
     let tenth: Vec<String> = axis.best_tenth.iter().map(text).collect();
     let tenth = match (&axis.best, tenth.as_slice()) {
-        (AxisValue::Number(_), [from, to]) if from != to => format!("{from} to {to}"),
-        (AxisValue::Number(_), [one, ..]) => one.clone(),
+        (Value::Number(_), [from, to]) if from != to => format!("{from} to {to}"),
+        (Value::Number(_), [one, ..]) => one.clone(),
         _ => tenth.join(", "),
     };
     let [from, to] = &axis.range;
@@ -141,20 +142,12 @@ fn csv(description: &Description) -> Option<String> {
         for axis in &best.axes {
             let [from, to] = &axis.range;
             for (name, value) in [("from", from), ("to", to), ("best", &axis.best)] {
-                line(["best", &best.column, &axis.name, name, &exact(value)])?;
+                line(["best", &best.column, &axis.name, name, &value.typed()])?;
             }
             for value in &axis.best_tenth {
-                line(["best", &best.column, &axis.name, "best_tenth", &exact(value)])?;
+                line(["best", &best.column, &axis.name, "best_tenth", &value.typed()])?;
             }
         }
     }
     String::from_utf8(writer.into_inner().ok()?).ok()
-}
-
-/// Returns a value as text with all digits.
-fn exact(value: &AxisValue) -> String {
-    match value {
-        AxisValue::Number(number) => text::float(*number),
-        AxisValue::Word(word) => word.clone(),
-    }
 }

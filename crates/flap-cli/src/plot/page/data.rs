@@ -7,6 +7,7 @@ use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
 
 use crate::data::columns::{Cells, NO_WORD, Table};
+use crate::data::levels::Value;
 
 /// Largest number of rows of a page that has all digits of the measures; larger pages have seven digits.
 const MOST_EXACT: usize = 20_000;
@@ -52,14 +53,6 @@ pub(super) enum Kind {
     Line,
     Scatter,
     Map,
-}
-
-/// The value of a condition.
-#[derive(Serialize)]
-#[serde(untagged)]
-pub(super) enum Value {
-    Number(f64),
-    Word(String),
 }
 
 /// A column with its label and its cells.
