@@ -1,5 +1,5 @@
-//! Properties of pictures that are the same in the command line and in Python. The properties are measures, colours,
-//! branches, and statistics of a sample.
+//! Properties of pictures that are the same in the command line and in Python: measures, colours, branches, and
+//! statistics of a sample.
 
 pub mod branches;
 pub mod colours;

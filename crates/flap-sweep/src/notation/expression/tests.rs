@@ -299,14 +299,16 @@ fn hostile_nesting_is_refused() {
 proptest! {
     /// Parsing of random text never panics, and the positions of mistakes are always within the text.
     #[test]
-    fn any_text_is_handled(words in prop::collection::vec(0..24_usize, 0..12), other in "\\PC{0,16}") {
-        const WORDS: [&str; 24] = [
+    fn any_text_is_handled(words in prop::collection::vec(0..27_usize, 0..12), other in "\\PC{0,16}") {
+        const WORDS: [&str; 27] = [
             "x", "T", "arms", "ok", "width", "preset.kappa", "1", "2.5e-3", "'axis'", "(", ")", "+", "-", "*", "/", "^",
-            "<", "==", "and", "or", "not", "min(", ",", "µ",
+            "<", "==", "and", "or", "not", "min(", ",", "µ", "drive_frequency", "Hz", "%",
         ];
         let words: Vec<&str> = words.into_iter().map(|word| WORDS[word]).collect();
-        for text in [words.join(" "), words.concat(), other] {
-            match Expression::parse(&text, &Names) {
+        let scopes: [&dyn Scope; 2] = [&Names, &Columns];
+        let texts = [words.join(" "), words.concat(), other];
+        for (text, scope) in texts.iter().flat_map(|text| scopes.map(|scope| (text, scope))) {
+            match Expression::parse(text, scope) {
                 Ok(expression) => {
                     let value = expression.value(&VALUES);
                     let logical = value.is_nan() || value == 0.0 || value == 1.0;
