@@ -1,5 +1,6 @@
 """`flapwing.plot` as a module: its imports and docstrings."""
 
+import importlib.metadata
 import subprocess
 import sys
 import textwrap
@@ -14,13 +15,15 @@ def test_importing_flapwing_does_not_import_matplotlib():
 
 
 def test_without_matplotlib_the_error_says_what_to_install():
-    code = textwrap.dedent("""
+    required = importlib.metadata.requires("flapwing")
+    (matplotlib,) = [line.split(";")[0].strip() for line in required if line.startswith("matplotlib")]
+    code = textwrap.dedent(f"""
         import sys
         sys.modules["matplotlib"] = None
         try:
             import flapwing.plot
         except ImportError as error:
-            assert "[plot]" in str(error) and "matplotlib>=3.7" in str(error), error
+            assert "[plot]" in str(error) and "{matplotlib}" in str(error), error
         else:
             sys.exit("imported")
     """)

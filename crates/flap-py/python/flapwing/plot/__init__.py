@@ -20,7 +20,7 @@ try:
     import matplotlib as _matplotlib
 except ImportError as _missing:
     raise ImportError(
-        'flapwing.plot requires matplotlib: pip install "flapwing[plot]", or pip install "matplotlib>=3.7"'
+        'flapwing.plot requires matplotlib: pip install "flapwing[plot]", or pip install "matplotlib>=3.8"'
     ) from _missing
 del _matplotlib
 
