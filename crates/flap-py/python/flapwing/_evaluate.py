@@ -51,17 +51,11 @@ def evaluate(
         SI units. A list of texts with units, or a list of options, is accepted too. A single value of a parameter
         applies to all points. A masked array must have no masked values. If `columns` is a `Table`, only the columns of
         parameters are used, not the measures.
-    threads : int, optional
-        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. The default of
-        `threads` is one thread per core, or with `client` one thread per task. The number of threads does not change
-        the rows.
-    progress : bool or function, optional
-        If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
-        numbers: the number of finished points, and the number of all points.
-    client : executor, optional
-        Run the points on the workers of an executor, as for `sweep`. With and without `client`, the rows are the same.
-    points_per_task : int, optional
-        Number of points in a task of `client`, as for `sweep`.
+    threads, progress
+        The number of threads and the progress report, as for `sweep`.
+    client, points_per_task
+        The executor and the number of points in a task, as for `sweep`. With and without `client`, the rows are the
+        same.
     measures : list of str, optional
         The measures that the rows contain. By default, the rows contain the measures that ``[output]`` of the grid
         chooses, or all measures if the grid has no ``[output]``.

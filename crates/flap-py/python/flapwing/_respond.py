@@ -53,13 +53,9 @@ def respond(
     return_states : bool, optional
         If True, the table also has columns with the state of each motion at the beginning of a drive period. You can
         pass the table as `initial_state` of `evaluate`.
-    threads : int, optional
-        Number of threads, 1 or more. With `client`, `threads` is the number of threads of each task. The default of
-        `threads` is one thread per core, or with `client` one thread per task. The number of threads does not change
-        the rows.
-    progress : bool or function, optional
-        If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
-        numbers: the number of finished designs, and the number of all designs.
+    threads, progress
+        The number of threads and the progress report, as for `sweep`. A progress function is called with the numbers of
+        finished and of all designs.
     client : executor, optional
         An executor, such as a process pool (see `sweep`). Each task of the workers follows one design. With and without
         `client`, the rows are the same.

@@ -239,8 +239,9 @@ def rank_correlations(
         The parameters to correlate, or any columns of numbers. The default of `parameters` is all parameters of the
         table.
     where, **slices
-        The selection of rows, as for `flapwing.plot.histogram`. If a grid combines a sample with an axis that is not
-        selected, only the rows at the middle value of this axis are used.
+        The selection of rows, as for `flapwing.plot.response`, but with the designs at all values of the axes of a
+        grid. If a grid combines a sample with an axis that is not selected, only the rows at the middle value of this
+        axis are used.
 
     Returns
     -------
@@ -381,8 +382,9 @@ def describe(
         Percentages from 0 to 100. A percentile between the values of two designs is interpolated linearly, like a
         percentile of ``flap describe``.
     where, **slices
-        The selection of rows, as for `flapwing.plot.histogram`. If a grid combines a sample with an axis that is not
-        selected, only the rows at the middle value of this axis are used.
+        The selection of rows, as for `flapwing.plot.response`, but with the designs at all values of the axes of a
+        grid. If a grid combines a sample with an axis that is not selected, only the rows at the middle value of this
+        axis are used.
 
     Returns
     -------

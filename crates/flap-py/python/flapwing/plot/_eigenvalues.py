@@ -25,13 +25,9 @@ def eigenvalues(models: Any, *, legend: bool | str = True, ax: Axes | None = Non
     ----------
     models : LinearModel, or mapping of names to LinearModel
         One linear model, or several models to compare. An array of eigenvalues (1/s) can replace a model.
-    legend : bool or str
-        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. If `models` is one LinearModel without a name, the picture has no legend. By default, the
-        legend is beside the axes of a new figure. If `ax` is given, the legend is inside the axes by default.
-    ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. The default of `ax` is axes of a
-        new figure.
+    legend, ax
+        The legend and the axes, as for `response`. If `models` is one LinearModel without a name, the picture has no
+        legend.
 
     Returns
     -------

@@ -94,13 +94,8 @@ def flight(
         `groups` is the four groups of states, and the inputs if the flights have inputs.
     label : sequence of str, optional
         The name of each flight of a list.
-    legend : bool or str
-        If `legend` is False, the picture has no legends. Text such as ``"upper left"`` sets the place of the legends
-        inside the axes. By default, the legends are above the axes of a new figure. If `ax` is given, the legend is
-        inside the axes by default.
-    ax : matplotlib Axes, optional
-        Axes for one panel. The figure of `ax` determines the style of the panel. The default of `ax` is axes of a new
-        figure.
+    legend, ax
+        The legends and the axes, as for `response`. If `ax` is given, `groups` must have a single panel.
 
     Returns
     -------

@@ -61,16 +61,9 @@ def control_matrix(
         The inputs to show, from left to right. If `table` is an array, `inputs` has the names of the columns of the
         array.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
-        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
-        warning shows the middle value that was used.
-    colorbar : bool or matplotlib Axes
-        If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
-        By default, the colour bar is beside the picture, and the picture becomes narrower.
-    ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. The default of `ax` is axes of a
-        new figure.
+        The selection of rows, as for `response`.
+    colorbar, ax
+        The colour bar and the axes, as for `response`.
 
     Returns
     -------
@@ -113,10 +106,7 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
     x : str, optional
         The parameter on the horizontal axes of the panels. The default of `x` is the axis of the grid.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
-        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
-        warning shows the middle value that was used.
+        The selection of rows, as for `response`.
 
     Returns
     -------

@@ -91,20 +91,10 @@ def heatmap(
         value with ``reduce="min"``. If `reduce` is neither ``"max"`` nor ``"min"``, the best cell has the smallest
         value for costs such as power. By default, the best cell has the largest value for measures that are not costs.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. Without
-        `reduce`, if an axis of the grid is neither drawn nor selected, the picture has only rows at the middle value of
-        this axis. A warning shows the middle value that was used.
-    legend : bool or str
-        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
-        inside the axes by default.
-    colorbar : bool or matplotlib Axes
-        If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
-        By default, the colour bar is beside the picture, and the picture becomes narrower.
-    ax : matplotlib Axes, optional
-        Axes in which flap draws the picture. The figure of `ax` determines the style of the picture. Only labels and a
-        colour bar are drawn outside of `ax`. The default of `ax` is axes of a new figure.
+        The selection of rows, as for `response`. If `reduce` is given, the picture has the rows at all values of the
+        axes that are neither drawn nor selected.
+    legend, colorbar, ax
+        The legend, the colour bar and the axes, as for `response`.
 
     Returns
     -------

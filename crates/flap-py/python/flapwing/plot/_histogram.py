@@ -46,18 +46,11 @@ def histogram(
         Percentages from 0 to 100. For each percentage, the picture has a line at the percentile. The default of
         `percentiles` is 5 %, 50 % and 95 %, as in ``flap plot``.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. The picture
-        has the designs at all values of the axes of a grid. A grid can also combine a sample with an axis. If this axis
-        is not selected, the picture has only the rows at the middle value of the axis. A warning shows the middle value
-        that was used.
-    legend : bool or str
-        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. By default, the legend is above the axes of a new figure. If `ax` is given, the legend is
-        inside the axes by default. The legend contains the mean and the standard deviation.
-    ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels are drawn outside of
-        `ax`. The default of `ax` is axes of a new figure.
+        The selection of rows, as for `response`. The picture has the designs at all values of the axes of a grid. A
+        grid can also combine a sample with an axis. If this axis is not selected, the picture has only the rows at the
+        middle value of the axis.
+    legend, ax
+        The legend and the axes, as for `response`. The legend contains the mean and the standard deviation.
 
     Returns
     -------

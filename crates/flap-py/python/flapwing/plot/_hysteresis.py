@@ -42,17 +42,9 @@ def hysteresis(
     curve : int, optional
         The number of the design in the column ``curve``, if the table has several designs.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
-        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
-        warning shows the middle value that was used.
-    legend : bool or str
-        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
-        inside the axes by default.
-    ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
-        drawn outside of `ax`. The default of `ax` is axes of a new figure.
+        The selection of rows, as for `response`.
+    legend, ax
+        The legend and the axes, as for `response`.
 
     Returns
     -------

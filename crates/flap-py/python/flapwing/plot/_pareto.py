@@ -50,19 +50,10 @@ def pareto(
     cmap : str, optional
         A colour map of matplotlib for columns of numbers. The default of `cmap` is the colour map of `heatmap`.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. The picture
-        has the designs at all other values, also if a grid combines a sample with an axis.
-    legend : bool or str
-        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
-        inside the axes by default.
-    colorbar : bool or matplotlib Axes
-        If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
-        By default, the colour bar is beside the picture, and the picture becomes narrower.
-    ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
-        drawn outside of `ax`. The default of `ax` is axes of a new figure.
+        The selection of rows, as for `response`. The picture has the designs at all other values, also if a grid
+        combines a sample with an axis.
+    legend, colorbar, ax
+        The legend, the colour bar and the axes, as for `response`.
 
     Returns
     -------

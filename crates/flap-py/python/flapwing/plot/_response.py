@@ -64,14 +64,14 @@ def response(
         the list.
     legend : bool or str
         If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
+        inside the axes. By default, the legend is outside of the axes of a new figure. If `ax` is given, the legend is
         inside the axes by default.
     colorbar : bool or matplotlib Axes
         If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
         By default, the colour bar is beside the picture, and the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. The default of `ax` is axes of a
-        new figure.
+        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
+        drawn outside of `ax`. The default of `ax` is axes of a new figure.
 
     Returns
     -------
@@ -141,20 +141,12 @@ def response_panels(
         more axes, the default of `by` is the first axis of the grid that is not x. If several results are given, each
         result has one line.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
-        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
-        warning shows the middle value that was used.
+        The selection of rows, as for `response`.
     label : sequence of str, optional
         The names in the legend, one for each result of a list. By default, the names are the numbers of the results in
         the list.
-    legend : bool or str
-        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
-        inside the axes by default.
-    colorbar : bool or matplotlib Axes
-        If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
-        By default, the colour bar is beside the picture, and the picture becomes narrower.
+    legend, colorbar
+        The legend and the colour bar, as for `response`.
 
     Returns
     -------

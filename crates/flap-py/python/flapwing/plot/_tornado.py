@@ -44,13 +44,8 @@ def tornado(
         `flapwing.analysis.rank_correlations`, which has no argument `change`.
     top : int
         The largest number of parameters to draw.
-    legend : bool or str
-        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. By default, the legend is beside the axes of a new figure. If `ax` is given, the legend is
-        inside the axes by default.
-    ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
-        drawn outside of `ax`. The default of `ax` is axes of a new figure.
+    legend, ax
+        The legend and the axes, as for `response`.
 
     Returns
     -------

@@ -71,10 +71,8 @@ def trajectory(
     label : str or sequence of str, optional
         The name of the motion in the legend, or the names of the motions of a list. By default, the second and later
         motions have numbers as names.
-    legend : bool or str
-        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. By default, the legend is above the axes of a new figure. If `ax` is given, the legend is
-        inside the axes by default.
+    legend
+        The legend, as for `response`.
     ax : matplotlib Axes, optional
         Axes for signals of one unit, without a portrait. If several trajectories are given, the axes can have only one
         signal. If `ax` already contains motions, the colours continue and the legend has all lines.

@@ -64,9 +64,8 @@ def wing_path(
         Sign convention of the pitch, for a wing that moves to positive stroke with a positive pitch: the trailing edge
         lags (1) or leads (-1). The default of `pitch_sign` is the convention of the table's model. If the table has no
         model, the default of `pitch_sign` is the sign for which the trailing edge lags.
-    legend : bool or str
-        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. By default, the legend is above the axes.
+    legend
+        The legend, as for `response`.
     ax : matplotlib Axes, optional
         Axes for the picture of the wing. If `ax` is given, the curves of stroke and pitch are not drawn, and the legend
         is inside `ax`.
