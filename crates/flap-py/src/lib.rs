@@ -1,8 +1,9 @@
 //! Native part of the `flapwing` Python package.
 //!
 //! [`parameters`], [`design`] and [`solver`] convert Python values to the types of flap-core and flap-sweep. [`columns`]
-//! converts rows to NumPy columns. `python/flapwing/_flapwing.pyi` repeats signatures and docstrings for editors and type
-//! checkers; tests compare both. The public functions with full docstrings are in the folder `python/flapwing`.
+//! converts rows to NumPy columns. `python/flapwing/_flapwing.pyi` repeats the signatures, and the docstrings of public
+//! names, for editors and type checkers; tests compare both. The public functions with full docstrings are in the folder
+//! `python/flapwing`.
 
 mod begin;
 mod cluster;

@@ -165,9 +165,7 @@ class Grid:
     @overload
     def __getitem__(self, key: slice, /) -> list[dict[str, float | str]]: ...
     @staticmethod
-    def _named(name: str, text: str, /) -> Grid:
-        """Return the grid for a text that was read from the file `name`."""
-
+    def _named(name: str, text: str, /) -> Grid: ...
     def __reduce__(self) -> tuple[Any, tuple[str, str]]: ...
     @property
     def name(self) -> str:
@@ -235,33 +233,15 @@ def presets() -> list[str]:
         Names for `run`, such as ``"ozaki2018-large"``.
     """
 
-def params(design: Any, /) -> list[NativeParameter]:
-    """Return the parameters of a design or a model; see `flapwing.params`."""
-
-def measures(design: Any, /) -> list[dict[str, Any]]:
-    """Return the measures of a design or a model; see `flapwing.measures`."""
-
-def uncertainty(design: Any, /) -> NativeUncertainty:
-    """Return the standard errors of a design's parameters by name, in SI units, and the correlations of pairs of parameters."""
-
-def origins(design: Any, /) -> NativeOrigins:
-    """Return the description of a design, which may be empty, and the sources of its parameters by name."""
-
-def states(design: Any, /) -> list[str]:
-    """Return the names of the states in the equations of motion of a design or a model. Each name ends with the unit."""
-
-def value(model: str, parameter: str, value: SupportsFloat | str, /) -> float:
-    """Return the value of a parameter in SI units, from a number or a text with a unit. `model` is a preset or a model."""
-
-def parameter(model: str, parameter: str, /) -> str:
-    """Return the name of a parameter of a preset or a model. Raise ValueError for an unknown name."""
-
-def quantity(name: str, text: str, unit: str, /) -> float:
-    """Parse a text such as `"3 mm"`, and return the number in `unit`. Both units must measure the same kind of quantity."""
-
-def settings() -> list[str]:
-    """Return the names of the solver settings, in the order of the signature of `flapwing.run`."""
-
+def params(design: Any, /) -> list[NativeParameter]: ...
+def measures(design: Any, /) -> list[dict[str, Any]]: ...
+def uncertainty(design: Any, /) -> NativeUncertainty: ...
+def origins(design: Any, /) -> NativeOrigins: ...
+def states(design: Any, /) -> list[str]: ...
+def value(model: str, parameter: str, value: SupportsFloat | str, /) -> float: ...
+def parameter(model: str, parameter: str, /) -> str: ...
+def quantity(name: str, text: str, unit: str, /) -> float: ...
+def settings() -> list[str]: ...
 def run(
     design: Any,
     keywords: dict[str, Any],
@@ -271,9 +251,7 @@ def run(
     initial_state: dict[str, Any] | None = None,
     waveform: str | dict[str, Any] | None = None,
     stroke: str | dict[str, Any] | None = None,
-) -> dict[str, Any]:
-    """Run one point; see `flapwing.run`."""
-
+) -> dict[str, Any]: ...
 def trajectory(
     design: Any,
     keywords: dict[str, Any],
@@ -287,8 +265,7 @@ def trajectory(
     waveform: str | dict[str, Any] | None = None,
     stroke: str | dict[str, Any] | None = None,
     once: bool = False,
-) -> NativeTable:
-    """Sample the motion of one point; see `flapwing.trajectory`."""
+) -> NativeTable: ...
 
 @final
 class LiveServer:
@@ -298,11 +275,8 @@ class LiveServer:
         cls, design: Any, keywords: dict[str, Any], /, *, port: int, threads: SupportsIndex | None
     ) -> LiveServer: ...
     @property
-    def address(self) -> str:
-        """The address of the live page, with a secret token."""
-
-    def stop(self) -> None:
-        """Stop the server of the live page."""
+    def address(self) -> str: ...
+    def stop(self) -> None: ...
 
 def resonance(
     design: Any,
@@ -316,9 +290,7 @@ def resonance(
     impulse: SupportsFloat | str,
     fit_cycles: SupportsIndex,
     spectrum_window: SupportsFloat | str,
-) -> dict[str, Any]:
-    """Compute the resonances of one point; see `flapwing.resonance`."""
-
+) -> dict[str, Any]: ...
 def optimise(
     design: Any,
     keywords: dict[str, Any],
@@ -331,9 +303,7 @@ def optimise(
     sample: SupportsIndex,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
-) -> dict[str, Any]:
-    """Find the best design; see `flapwing.optimise`."""
-
+) -> dict[str, Any]: ...
 def wrench_map(
     design: Any,
     keywords: dict[str, Any],
@@ -344,9 +314,7 @@ def wrench_map(
     samples: SupportsIndex,
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
-) -> dict[str, Any]:
-    """Fit a quadratic map of force and torque; see `flapwing.wrench_map`. Each range is a name, a first and a last value."""
-
+) -> dict[str, Any]: ...
 def linear(
     design: Any,
     keywords: dict[str, Any],
@@ -356,9 +324,7 @@ def linear(
     inputs: list[str] | None = None,
     trim_to_hover: bool = False,
     positions: bool = False,
-) -> dict[str, Any]:
-    """Compute the linear model of a vehicle about hover; see `flapwing.Vehicle.linear`."""
-
+) -> dict[str, Any]: ...
 def fly(
     design: Any,
     keywords: dict[str, Any],
@@ -371,9 +337,7 @@ def fly(
     inputs: list[str],
     averaged: bool,
     samples: SupportsIndex | None,
-) -> NativeTable:
-    """Simulate the flight of a vehicle; see `flapwing.fly`."""
-
+) -> NativeTable: ...
 def chirp(
     design: Any,
     keywords: dict[str, Any],
@@ -384,9 +348,7 @@ def chirp(
     stop: SupportsFloat | str | None,
     rate: SupportsFloat | str,
     samples: SupportsIndex | None,
-) -> NativeTable:
-    """Simulate a chirp; see `flapwing.chirp`."""
-
+) -> NativeTable: ...
 def impulse(
     design: Any,
     keywords: dict[str, Any],
@@ -396,9 +358,7 @@ def impulse(
     amplitude: SupportsFloat | str,
     duration: SupportsFloat | str | None,
     samples: SupportsIndex,
-) -> NativeTable:
-    """Simulate the motion after an impulse; see `flapwing.impulse`."""
-
+) -> NativeTable: ...
 def forces_along(
     design: Any,
     motion: str | dict[str, Any],
@@ -408,18 +368,10 @@ def forces_along(
     point: SupportsIndex | None,
     periodic: bool,
     samples: SupportsIndex,
-) -> NativeTable:
-    """Compute the forces on a wing along a given motion; see `flapwing.forces_along`."""
-
-def track_wing(points: str | dict[str, Any], /, *, chord: SupportsFloat | None = None) -> NativeTable:
-    """Compute stroke and pitch of a filmed wing; see `flapwing.track_wing`."""
-
-def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None:
-    """Check that a design accepts `keywords` and has the measures `measures`. Mistakes raise the errors of `evaluate`."""
-
-def text_of(entries: dict[str, Any], /) -> str:
-    """Return the text of a grid file with the entries `entries`."""
-
+) -> NativeTable: ...
+def track_wing(points: str | dict[str, Any], /, *, chord: SupportsFloat | None = None) -> NativeTable: ...
+def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None: ...
+def text_of(entries: dict[str, Any], /) -> str: ...
 def evaluate(
     design: Any,
     columns: dict[str, Any],
@@ -432,14 +384,7 @@ def evaluate(
     initial_state: np.ndarray[Any, np.dtype[np.float64]] | None = None,
     return_states: bool = False,
     keywords: dict[str, Any] | None = None,
-) -> NativeTable:
-    """Run a batch of points; see `flapwing.evaluate`.
-
-    `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same
-    length. `initial_state` has one row of state components per point; a row of nan stands for a point that begins at
-    rest.
-    """
-
+) -> NativeTable: ...
 def respond(
     design: Any,
     parameter: str,
@@ -455,12 +400,7 @@ def respond(
     progress: Callable[[int, int], object] | None = None,
     keywords: dict[str, Any] | None = None,
     curves: list[int] | None = None,
-) -> NativeTable:
-    """Follow responses; see `flapwing.respond`.
-
-    `curves` has the numbers of the designs to follow, in rising order. In the result, `designs` is the number of all designs.
-    """
-
+) -> NativeTable: ...
 def edges(
     design: Any,
     first: str,
@@ -472,9 +412,7 @@ def edges(
     tolerance: SupportsFloat | str | None = None,
     threads: SupportsIndex | None = None,
     keywords: dict[str, Any] | None = None,
-) -> NativeTable:
-    """Follow the edges of hysteresis; see `flapwing.edges`. Each range is a first value, a last value and a step."""
-
+) -> NativeTable: ...
 def sweep(
     grid: Grid,
     /,
@@ -484,88 +422,27 @@ def sweep(
     threads: SupportsIndex | None = None,
     progress: Callable[[int, int], object] | None = None,
     chunks: Callable[[int], bytes | None] | None = None,
-) -> NativeTable:
-    """Run a grid; see `flapwing.sweep`.
-
-    `chunks` is a function that returns rows of other processes. The argument of `chunks` is the number of points done, and
-    the result is the next chunk of rows as bytes.
-    """
-
-def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes:
-    """Run the points from `begin` up to, but not including, `end`. Return the rows as bytes, which the function `chunks`
-    of `sweep` may return.
-    """
-
-def identity() -> NativeIdentity:
-    """Return the identity of this process: `build` (a hash of the sources) and `arithmetic`, which determine the bits of rows."""
-
-def command(line: list[str]) -> int:
-    """Run a command line and return its exit code. The first word of the line is the name of the program."""
-
-def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> NativeTable:
-    """Read a result file; see `flapwing.read`."""
-
-def words(name: str, unit: str, /) -> str:
-    """Return the name of a column in words, without the unit: `lift_mean_mn` gives "Lift, mean"."""
-
-def printed(unit: str, /) -> str:
-    """Return a unit for printing: `uN*m/rad` gives "µN·m/rad", `mm^2` gives "mm²", `deg` gives "°"."""
-
-def scale(unit: str, largest: float, /) -> tuple[float, str]:
-    """Return the factor to a readable unit, and the readable unit for printing. `largest` is the largest of the values in
-    `unit`.
-    """
-
-def unit_of(name: str, /) -> str:
-    """Return the unit of a column, or empty text if the unit is unknown.
-
-    If `name` is a parameter, a measure or a derivative of a model, the unit of the quantity is returned. For all other
-    names, the unit at the end of the name is returned.
-    """
-
-def split_unit(name: str, /) -> tuple[str, str]:
-    """Return the name of a column without the unit at the end, and the unit, which may be empty."""
-
-def better(name: str, /) -> int:
-    """Return the better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither."""
-
-def colours() -> NativeColours:
-    """Return the colours of pictures.
-
-    `series` is a list, and `branches` has one colour for each branch. `dark`, `plain` and `bistable` are single
-    colours.
-    """
-
-def line_shades(count: int, /) -> list[float] | None:
-    """Return the positions of `count` ordered lines in the sequential colour map; None for a single line."""
-
-def is_signed(low: float, high: float, /) -> bool:
-    """Return True if numbers from `low` to `high` have both signs. Numbers of both signs require a diverging map with zero
-    in the middle.
-    """
-
-def usual_measure(role: str, columns: list[str], taken: list[str], /) -> str | None:
-    """Return the default measure among `columns` that is not in `taken`. Return None if no
-    default measure remains.
-
-    `role` is "response", "benefit", "cost" or "motion".
-    """
-
+) -> NativeTable: ...
+def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes: ...
+def identity() -> NativeIdentity: ...
+def command(line: list[str]) -> int: ...
+def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> NativeTable: ...
+def words(name: str, unit: str, /) -> str: ...
+def printed(unit: str, /) -> str: ...
+def scale(unit: str, largest: float, /) -> tuple[float, str]: ...
+def unit_of(name: str, /) -> str: ...
+def split_unit(name: str, /) -> tuple[str, str]: ...
+def better(name: str, /) -> int: ...
+def colours() -> NativeColours: ...
+def line_shades(count: int, /) -> list[float] | None: ...
+def is_signed(low: float, high: float, /) -> bool: ...
+def usual_measure(role: str, columns: list[str], taken: list[str], /) -> str | None: ...
 def ways(
     up: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any]],
     down: tuple[np.ndarray[Any, Any], np.ndarray[Any, Any], np.ndarray[Any, Any]],
     /,
-) -> NativeWays:
-    """Return the bands in which the branches up and down differ, and the rows after which each branch jumps.
-
-    `up` and `down` are the branches: arrays of the parameter, of the measure, and of the column `bistable`.
-    """
-
-def bars(values: np.ndarray[Any, Any], /) -> NativeBars | None:
-    """Return a histogram: edges and heights of the bars. Return None if no value is finite."""
-
-def correlations(parameters: list[np.ndarray[Any, Any]], measure: np.ndarray[Any, Any], /) -> list[tuple[int, float]]:
-    """Return the index of each parameter and its rank correlation with a measure, in falling order of absolute value.
-
-    Parameters whose order equals the order of an earlier parameter, and parameters without a correlation, are left out.
-    """
+) -> NativeWays: ...
+def bars(values: np.ndarray[Any, Any], /) -> NativeBars | None: ...
+def correlations(
+    parameters: list[np.ndarray[Any, Any]], measure: np.ndarray[Any, Any], /
+) -> list[tuple[int, float]]: ...
