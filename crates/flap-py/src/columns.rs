@@ -7,7 +7,7 @@ use flap_sweep::table::labels::split_unit;
 use flap_sweep::table::layout::{Cell, CellKind, Column};
 use numpy::PyArray1;
 use pyo3::prelude::*;
-use pyo3::types::{IntoPyDict, PyDict, PyList};
+use pyo3::types::{IntoPyDict, PyDict};
 
 /// A table in memory.
 pub(crate) struct Columns {
@@ -84,31 +84,22 @@ impl Columns {
         Ok(())
     }
 
-    /// Returns a list of dictionaries with the entries `name`, `unit`, `doc` (the meaning), `cells` (an array) and `words`.
+    /// Returns a dictionary of columns by name. A column is a tuple of unit, meaning, cells (an array) and words.
     ///
-    /// For a column of text, `cells` has indices of `words`; otherwise `words` is None. Arrays of flags have 1, 0, and -1 for
-    /// unknown.
-    pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyList>> {
-        let list = PyList::empty(py);
+    /// The cells of a column of text are indices of its words. Other columns have None in place of words. Arrays of flags
+    /// have 1, 0, and -1 for unknown.
+    pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
+        let dict = PyDict::new(py);
         for (Column { name, unit, doc, .. }, data) in self.columns {
-            let none = py.None();
-            let (array, words) = match data {
-                Data::Whole(cells) => (PyArray1::from_vec(py, cells).into_any(), none),
-                Data::Number(cells) => (PyArray1::from_vec(py, cells).into_any(), none),
-                Data::Flag(cells) => (PyArray1::from_vec(py, cells).into_any(), none),
-                Data::Text(places, words) => {
-                    (PyArray1::from_vec(py, places).into_any(), PyList::new(py, words)?.into_any().unbind())
-                }
+            let (cells, words) = match data {
+                Data::Whole(cells) => (PyArray1::from_vec(py, cells).into_any(), None),
+                Data::Number(cells) => (PyArray1::from_vec(py, cells).into_any(), None),
+                Data::Flag(cells) => (PyArray1::from_vec(py, cells).into_any(), None),
+                Data::Text(places, words) => (PyArray1::from_vec(py, places).into_any(), Some(words)),
             };
-            let dict = PyDict::new(py);
-            dict.set_item("name", name)?;
-            dict.set_item("unit", unit)?;
-            dict.set_item("doc", doc)?;
-            dict.set_item("cells", array)?;
-            dict.set_item("words", words)?;
-            list.append(dict)?;
+            dict.set_item(name, (unit, doc, cells, words))?;
         }
-        Ok(list)
+        Ok(dict)
     }
 }
 

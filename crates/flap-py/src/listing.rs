@@ -30,19 +30,8 @@ pub(crate) struct Measure {
     doc: String,
 }
 
-/// The standard errors of parameters in SI units, by name, and the correlations of pairs of parameters.
-#[derive(IntoPyObject)]
-pub(crate) struct Uncertainty {
-    errors: BTreeMap<String, f64>,
-    correlations: Vec<Correlation>,
-}
-
-/// Two parameters and the coefficient of their correlation.
-#[derive(IntoPyObject)]
-struct Correlation {
-    between: [String; 2],
-    coefficient: f64,
-}
+/// The standard errors of parameters in SI units, by name, and the correlation coefficients of pairs of parameters.
+type Uncertainty = (BTreeMap<String, f64>, Vec<(String, String, f64)>);
 
 /// A number, NaN for a value that is not set, or the name of an option.
 #[derive(IntoPyObject)]
@@ -92,11 +81,11 @@ pub(crate) fn uncertainty(design: &Bound<'_, PyAny>) -> PyResult<Uncertainty> {
     let name = |index: usize| plan.parameters()[index].name.to_owned();
     let known = plan.uncertainty();
     let errors = known.errors().iter().map(|(index, error)| (name(*index), *error)).collect();
-    let correlations = known
-        .correlations()
-        .iter()
-        .map(|one| Correlation { between: one.between.map(name), coefficient: one.coefficient });
-    Ok(Uncertainty { errors, correlations: correlations.collect() })
+    let correlations = known.correlations().iter().map(|one| {
+        let [first, second] = one.between.map(name);
+        (first, second, one.coefficient)
+    });
+    Ok((errors, correlations.collect()))
 }
 
 /// Returns the model of a design, or a model by name.

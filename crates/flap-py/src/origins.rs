@@ -9,17 +9,10 @@ use toml::{Table, Value};
 
 use crate::grid;
 
-/// The description of a design, which may be empty, and the sources of the design's parameters by name.
-#[derive(IntoPyObject)]
-pub(crate) struct Origins {
-    description: String,
-    sources: BTreeMap<String, String>,
-}
-
 /// Return the description of a design, which may be empty, and the sources of its parameters by name.
 #[pyfunction]
 #[pyo3(signature = (design, /))]
-pub(crate) fn origins(design: &Bound<'_, PyAny>) -> PyResult<Origins> {
+pub(crate) fn origins(design: &Bound<'_, PyAny>) -> PyResult<(String, BTreeMap<String, String>)> {
     let plan = grid::plan(design)?;
     let parameters = plan.parameters();
     let mut description = String::new();
@@ -39,5 +32,5 @@ pub(crate) fn origins(design: &Bound<'_, PyAny>) -> PyResult<Origins> {
     let named = parameters.iter().zip(sources);
     let sources =
         named.filter_map(|(parameter, source)| Some((parameter.name.to_owned(), source?))).collect();
-    Ok(Origins { description, sources })
+    Ok((description, sources))
 }

@@ -60,15 +60,10 @@ pub(crate) fn usual_measure(
     Ok(usual(role, &columns, &taken).map(|place| columns[place].to_owned()))
 }
 
-/// The bands in which two branches differ, and the rows after which each branch jumps, as a dictionary.
-#[derive(IntoPyObject)]
-pub(crate) struct Ways {
-    bands: Vec<(f64, f64)>,
-    up: Vec<usize>,
-    down: Vec<usize>,
-}
-
 type PyWay<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, bool>);
+
+/// The bands in which two branches differ, and the rows after which each branch jumps.
+type Ways = (Vec<(f64, f64)>, [Vec<usize>; 2]);
 
 /// Return the bands in which the branches up and down differ, and the rows after which each branch jumps.
 ///
@@ -79,16 +74,12 @@ type PyWay<'py> = (PyReadonlyArray1<'py, f64>, PyReadonlyArray1<'py, f64>, PyRea
 pub(crate) fn ways(up: PyWay<'_>, down: PyWay<'_>) -> PyResult<Ways> {
     let way = Way { x: up.0.as_slice()?, y: up.1.as_slice()?, bistable: up.2.as_slice()? };
     let back = Way { x: down.0.as_slice()?, y: down.1.as_slice()?, bistable: down.2.as_slice()? };
-    let Comparison { bands, jumps: [up, down] } = compared(way, back);
-    Ok(Ways { bands, up, down })
+    let Comparison { bands, jumps } = compared(way, back);
+    Ok((bands, jumps))
 }
 
-/// A histogram as a dictionary: edges and heights of the bars.
-#[derive(IntoPyObject)]
-pub(crate) struct Bars<'py> {
-    edges: Bound<'py, PyArray1<f64>>,
-    counts: Bound<'py, PyArray1<f64>>,
-}
+/// Edges and heights of the bars of a histogram.
+type Bars<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<f64>>);
 
 /// Return a histogram: edges and heights of the bars. Return None if no value is finite.
 #[pyfunction]
@@ -98,7 +89,7 @@ pub(crate) fn bars<'py>(py: Python<'py>, values: PyReadonlyArray1<'py, f64>) -> 
     let found = sample::histogram(values.as_slice()?);
     Ok(found.map(|found| {
         let counts = found.counts.iter().map(|&count| count as f64);
-        Bars { edges: PyArray1::from_vec(py, found.edges), counts: PyArray1::from_iter(py, counts) }
+        (PyArray1::from_vec(py, found.edges), PyArray1::from_iter(py, counts))
     }))
 }
 

@@ -10,7 +10,6 @@ import numpy as np
 
 from . import _arguments, _flapwing, _workers
 from ._mistakes import reading, refused
-from ._native import NativeTable
 from ._progress import Progress, one_step
 from ._table import Table
 from ._types import Design, Executor, Value
@@ -108,7 +107,7 @@ def fly(
     if disturbance is not None and not isinstance(disturbance, Mapping):
         raise refused("disturbance", disturbance, 'it must be a dictionary, such as {"velocity_forward": "0.1 m/s"}')
     with one_step(progress):
-        native: NativeTable = _workers.call(
+        native = _workers.call(
             client,
             _flapwing.fly,
             design,

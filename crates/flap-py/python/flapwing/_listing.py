@@ -33,12 +33,7 @@ def params(design: Design, /) -> dict[str, Parameter]:
     >>> flapwing.params("ozaki2018-large")["drive_frequency"].unit
     'Hz'
     """
-    listed = [
-        Parameter(
-            one["name"], one["value"], one["unit"], one["symbol"], one["doc"], one["allowed"], tuple(one["options"])
-        )
-        for one in _flapwing.params(design)
-    ]
+    listed = [Parameter(**{**one, "options": tuple(one["options"])}) for one in _flapwing.params(design)]
     return {parameter.name: parameter for parameter in listed}
 
 

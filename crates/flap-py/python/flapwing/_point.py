@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import SupportsFloat, SupportsIndex
 
 from . import _arguments, _flapwing, _workers
-from ._native import NativeTable
 from ._progress import Progress, one_step
 from ._results import DampedSine, DrivenPeak, FrequencyGap, Resonances, Row
 from ._table import Table
@@ -211,7 +210,7 @@ def trajectory(
     >>> on = flapwing.trajectory("ozaki2018-large", initial_state=motion[-1:], drive_voltage_pp="80 V")
     """
     with one_step(progress):
-        native: NativeTable = _workers.call(
+        native = _workers.call(
             client,
             _flapwing.trajectory,
             design,

@@ -12,7 +12,6 @@ import numpy as np
 from . import _columns, _flapwing
 from ._columns import Column
 from ._mistakes import callers_level, raised, unknown
-from ._native import NativeTable
 from ._results import Verdict, cell_text
 
 if TYPE_CHECKING:
@@ -33,12 +32,10 @@ _KEYS = (
 )
 
 
-def _columns_of(native: NativeTable) -> dict[str, Column]:
+def _columns_of(native: dict[str, Any]) -> dict[str, Column]:
     units = native.get("units", {})
-    return {
-        one["name"]: Column(units.get(one["name"], one["unit"]), one["doc"], one["cells"], one["words"])
-        for one in native["columns"]
-    }
+    columns = {name: Column(*parts) for name, parts in native["columns"].items()}
+    return {name: column._replace(unit=units.get(name, column.unit)) for name, column in columns.items()}
 
 
 def _read_only(values: Any) -> np.ndarray[Any, Any]:
@@ -86,7 +83,7 @@ class Table:
         raise TypeError("a Table is returned by sweep, evaluate, respond, trajectory or read\ncall one of them")
 
     @classmethod
-    def _of(cls, native: NativeTable, path: str | None = None, keywords: Mapping[str, Any] | None = None) -> Table:
+    def _of(cls, native: dict[str, Any], path: str | None = None, keywords: Mapping[str, Any] | None = None) -> Table:
         """Return a table of the native results of a call with the keywords `keywords`. If `path` is given, a column is
         read from the file `path` when the column is first used.
         """

@@ -12,8 +12,8 @@ from typing import Any, SupportsIndex
 import numpy as np
 
 from . import _arguments, _flapwing
+from ._columns import Column
 from ._flapwing import Grid
-from ._native import NativeColumn, NativeIdentity, NativeSummary, NativeTable
 from ._types import Executor
 
 #: Number of points of a task for each thread, which take a few seconds. If a worker is lost, little work is lost.
@@ -42,7 +42,7 @@ def call(client: Executor | None, function: Callable[..., Any], design: Any, *ar
 
 def _call_task(
     name: str, design: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]
-) -> tuple[NativeIdentity, Any]:
+) -> tuple[dict[str, str], Any]:
     """Run the task of a worker: return the identity of the worker and the result of the native function `name`."""
     keywords = {key: _aligned(value) if isinstance(value, dict) else value for key, value in keywords.items()}
     return _flapwing.identity(), getattr(_flapwing, name)(design, *arguments, **keywords)
@@ -136,7 +136,7 @@ def _task_size(client: Executor, points: int, threads: SupportsIndex, points_per
 
 def _evaluate_task(
     design: Any, options: dict[str, Any], given: dict[str, Any], threads: SupportsIndex | None
-) -> NativeTable:
+) -> dict[str, Any]:
     """Run the task of a worker: return the rows for a range of points. The points are given as columns of
     parameters."""
     return _flapwing.evaluate(design, _aligned(given), threads=threads, **_aligned(options))
@@ -156,7 +156,7 @@ def evaluate(
     threads: SupportsIndex | None,
     points_per_task: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
-) -> NativeTable:
+) -> dict[str, Any]:
     """Return the rows of the points in the columns `given`. Workers compute the rows."""
     # This call reports mistakes. An empty selection has the same columns and axes as all rows.
     empty = _evaluate_task(design, _options_of(options, 0, 0), {name: values[:0] for name, values in given.items()}, 1)
@@ -191,18 +191,17 @@ def evaluate(
     return _joined(parts)
 
 
-def _renumbered(part: NativeTable, offset: int) -> NativeTable:
+def _renumbered(part: dict[str, Any], offset: int) -> dict[str, Any]:
     """Return the rows of a part of a batch, with the point numbers of the whole batch. The first point of the part has
     the number `offset`.
     """
-    columns: list[NativeColumn] = [
-        {**one, "cells": one["cells"] + np.uint64(offset)} if one["name"] == "point" else one for one in part["columns"]
-    ]
+    point = Column(*part["columns"]["point"])
+    columns = {**part["columns"], "point": point._replace(cells=point.cells + np.uint64(offset))}
     invalid = [(point + offset, reason) for point, reason in part["summary"]["invalid"]]
     return {**part, "columns": columns, "summary": {**part["summary"], "invalid": invalid}}
 
 
-def _joined(parts: list[NativeTable]) -> NativeTable:
+def _joined(parts: list[dict[str, Any]]) -> dict[str, Any]:
     """Join the rows of all parts of a batch, and return the whole batch."""
     first = parts[0]
     axes = list(first["axes"])
@@ -213,24 +212,24 @@ def _joined(parts: list[NativeTable]) -> NativeTable:
     return {"columns": _columns(parts), "summary": summary, "axes": axes, "meta": first["meta"]}
 
 
-def _columns(parts: list[NativeTable]) -> list[NativeColumn]:
+def _columns(parts: list[dict[str, Any]]) -> dict[str, Column]:
     """Join the columns of all parts of a batch, and return the joined columns."""
-    return [_column([part["columns"][place] for part in parts]) for place in range(len(parts[0]["columns"]))]
+    return {name: _column([Column(*part["columns"][name]) for part in parts]) for name in parts[0]["columns"]}
 
 
-def _column(parts: list[NativeColumn]) -> NativeColumn:
+def _column(parts: list[Column]) -> Column:
     """Join one column of all parts of a batch. The parts of a text column can have different lists of words."""
-    cells = [one["cells"] for one in parts]
-    if parts[0]["words"] is None:
-        return {**parts[0], "cells": np.concatenate(cells)}
-    listed = [one["words"] or [] for one in parts]
+    cells = [one.cells for one in parts]
+    if parts[0].words is None:
+        return parts[0]._replace(cells=np.concatenate(cells))
+    listed = [one.words or [] for one in parts]
     words = list(dict.fromkeys(word for some in listed for word in some))
     places = [np.array([words.index(word) for word in some], dtype=np.uint32) for some in listed]
     cells = [place_of[one] if len(place_of) else one for place_of, one in zip(places, cells)]
-    return {**parts[0], "cells": np.concatenate(cells), "words": words}
+    return parts[0]._replace(cells=np.concatenate(cells), words=words)
 
 
-def _summed(summaries: list[NativeSummary]) -> NativeSummary:
+def _summed(summaries: list[dict[str, Any]]) -> dict[str, Any]:
     """Return the summary of the whole batch: the sum of the summaries of all parts."""
 
     def total(counts: list[dict[str, int]]) -> dict[str, int]:
@@ -252,7 +251,7 @@ def _summed(summaries: list[NativeSummary]) -> NativeSummary:
 
 def _respond_task(
     design: Any, parameter: str, options: dict[str, Any], curve: int, threads: SupportsIndex | None
-) -> NativeTable:
+) -> dict[str, Any]:
     """Run the task of a worker: return the curve of one design."""
     return _flapwing.respond(design, parameter, threads=threads, curves=[curve], **options)
 
@@ -264,7 +263,7 @@ def responses(
     options: dict[str, Any],
     threads: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
-) -> NativeTable:
+) -> dict[str, Any]:
     """Return the responses of designs. Workers compute the responses."""
     # This call reports mistakes. It returns no rows.
     empty = _flapwing.respond(design, parameter, threads=threads, curves=[], **options)

@@ -39,9 +39,9 @@ def text_of(fit: Solution, data_set: str | None) -> str:
     good = fit.goodness
     readings = sum(one.count for one in good.residuals)
     quality = f"chi-square {good.chi_square:.4g} for {good.freedom} degrees of freedom"
-    origins = _flapwing.origins(names.grid)
+    description, sources = _flapwing.origins(names.grid)
     described = "; ".join(
-        part for part in (_FITTED.sub("", origins["description"]), f"fitted to {readings} readings, {quality}") if part
+        part for part in (_FITTED.sub("", description), f"fitted to {readings} readings, {quality}") if part
     )
     lines = [
         f"description = {_text(described)}",
@@ -49,11 +49,11 @@ def text_of(fit: Solution, data_set: str | None) -> str:
         "",
         "[params]",
     ]
-    before = _flapwing.uncertainty(names.grid)
+    errors, earlier_correlations = _flapwing.uncertainty(names.grid)
     # A fitted or newly set value does not keep the old error and source.
     new_values = {*fitted, *fit._model.keywords, *names.grid.varied}
-    errors = {name: error for name, error in before["errors"].items() if name not in new_values}
-    sources = {name: source for name, source in origins["sources"].items() if name not in new_values}
+    errors = {name: error for name, error in errors.items() if name not in new_values}
+    sources = {name: source for name, source in sources.items() if name not in new_values}
     for name, value in {**fit._model.nominal, **_derived(fit, fitted)}.items():
         entries = [f"sd = {errors[name]!r}"] if name in errors else []
         entries += [f"source = {_text(sources[name])}"] if name in sources else []
@@ -73,11 +73,7 @@ def text_of(fit: Solution, data_set: str | None) -> str:
             lines.append(f'{name} = {{ value = {one.value!r}, sd = {one.error!r}, source = "fitted{doubt}" }}')
         else:
             lines.append(f'{name} = {{ value = {one.value!r}, source = "not fixed by the data of the fit" }}')
-    coefficients = [
-        (*one["between"], one["coefficient"])
-        for one in before["correlations"]
-        if all(name in errors for name in one["between"])
-    ]
+    coefficients = [one for one in earlier_correlations if one[0] in errors and one[1] in errors]
     correlations = fit.correlations
     for number, (name, row) in enumerate(known):
         for other, column in known[:number]:

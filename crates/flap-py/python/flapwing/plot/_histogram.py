@@ -80,7 +80,7 @@ def histogram(
     found = bars(values)
     if found is None:
         raise ValueError(f"no row has a number for `{measure}`")
-    edges, counts = found["edges"], found["counts"]
+    edges, counts = found
     summary = statistics(measure, shown.unit, values[np.isfinite(values)], chosen)
 
     given = ax is not None

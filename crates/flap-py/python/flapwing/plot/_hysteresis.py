@@ -76,8 +76,7 @@ def hysteresis(
     up, down = branches["up"], branches["down"]
     if not up.x.size and not down.x.size:
         raise ValueError("the table has neither a branch up nor a branch down")
-    compared = _flapwing.ways((up.x, up.y, up.bistable), (down.x, down.y, down.bistable))
-    bands, up.jumps, down.jumps = compared["bands"], compared["up"], compared["down"]
+    bands, (up.jumps, down.jumps) = _flapwing.ways((up.x, up.y, up.bistable), (down.x, down.y, down.bistable))
 
     given = ax is not None
     with _style.applied(ax):
