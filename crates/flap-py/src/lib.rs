@@ -63,7 +63,7 @@ mod _flapwing {
         optimise::optimise,
         origins::origins,
         parameters::presets,
-        picture::{bars, colours, correlations, is_signed, line_shades, usual_measure, ways},
+        picture::{bars, colours, correlations, is_log, is_signed, line_shades, usual_measure, ways},
         quantity::{parameter, quantity, value},
         read::read,
         resonance::resonance,

@@ -2,7 +2,7 @@
 
 use flap_sweep::picture::branches::{BRANCHES, Comparison, Way, compared};
 use flap_sweep::picture::measures::{Role, usual};
-use flap_sweep::picture::{colours as table, sample};
+use flap_sweep::picture::{colours as table, sample, scale};
 use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -40,6 +40,14 @@ pub(crate) fn line_shades(count: usize) -> Option<Vec<f64>> {
 #[pyo3(signature = (low, high, /))]
 pub(crate) fn is_signed(low: f64, high: f64) -> bool {
     table::is_signed(low, high)
+}
+
+/// Return True if an axis or a colour bar with these rising values is logarithmic.
+#[pyfunction]
+#[pyo3(signature = (values, /))]
+#[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
+pub(crate) fn is_log(values: PyReadonlyArray1<'_, f64>) -> PyResult<bool> {
+    Ok(scale::is_log(values.as_slice()?))
 }
 
 /// Return the default measure among `columns` that is not in `taken`. Return None if no

@@ -35,7 +35,7 @@ def test_heatmap_transposed_and_shuffled(sweep):
 
 
 def test_edges_of_uneven_and_logarithmic_axes():
-    stiffness = np.geomspace(5e-5, 2e-4, 5)
+    stiffness = np.geomspace(5e-5, 5e-4, 5)
     table = grid(hinge_stiffness=stiffness, drive_frequency=np.array([90.0, 100.0, 120.0]))
     ax = drawn(plot.heatmap(table, "lift_mean_mn"))
     assert ax.get_yscale() == "log" and ax.get_xscale() == "linear"
@@ -46,6 +46,9 @@ def test_edges_of_uneven_and_logarithmic_axes():
     assert ax.get_ylabel() == "Hinge stiffness (µN·m/rad)"
     linear = plot.heatmap(table, "lift_mean_mn", yscale="linear")
     assert_allclose(mesh(linear).get_coordinates()[1:-1, 0, 1], 5e5 * (stiffness[1:] + stiffness[:-1]))
+    # As in `flap plot`, equal ratios within a factor of ten are on a linear axis.
+    narrow = grid(hinge_stiffness=np.geomspace(5e-5, 2e-4, 5), drive_frequency=HERTZ)
+    assert plot.heatmap(narrow, "lift_mean_mn").get_yscale() == "linear"
 
 
 def test_words_along_an_axis():

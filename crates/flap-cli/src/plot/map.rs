@@ -5,6 +5,7 @@ use kuva::render::layout::ComputedLayout;
 use kuva::render::render::{Primitive, Scene};
 
 use flap_sweep::picture::colours;
+use flap_sweep::picture::scale::is_log;
 
 use super::canvas::Size;
 use super::ink;
@@ -242,7 +243,7 @@ fn side(table: &Table, selection: &Selection, column: usize) -> Result<Side, Fai
         return Err(Failure::Bug("numbers without values".to_owned()));
     };
     let label = table.label(column);
-    let log = scale::is_log(&values);
+    let log = is_log(&values);
     let scaled: Vec<f64> = values.iter().map(|value| value * label.factor).collect();
     let edges = edges(&scaled, log);
     let axis = Axis { log, ..Axis::linear(label.text(), (edges[0], edges[edges.len() - 1])) };

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use flap_sweep::picture::scale::is_log;
 use kuva::render::render::Scene;
 
 use super::canvas::Size;
@@ -70,7 +71,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     let mut values: Vec<f64> = drawn.iter().map(|point| point.0).collect();
     values.sort_by(f64::total_cmp);
     values.dedup();
-    let log = scale::is_log(&values);
+    let log = is_log(&values);
     let width = scale::range(values).unwrap_or((0.0, 1.0));
     let mut notes = selection.notes.clone();
     if missing > 0 {

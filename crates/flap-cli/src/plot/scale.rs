@@ -62,16 +62,6 @@ pub(super) fn tick(value: f64, range: (f64, f64), step: f64) -> String {
     format!("{value:.decimals$}").replace('-', "−")
 }
 
-/// Returns true if an axis is logarithmic: the values have a constant ratio and span a decade or more.
-pub(super) fn is_log(values: &[f64]) -> bool {
-    let (Some(first), Some(last)) = (values.first(), values.last()) else { return false };
-    if values.len() < 3 || *first <= 0.0 || last / first < 9.99 {
-        return false;
-    }
-    let step = (values[1] / values[0]).ln();
-    values.windows(2).all(|two| ((two[1] / two[0]).ln() - step).abs() < 1e-6 * step)
-}
-
 /// Returns at most about `most` points of a line, in their order. The function keeps the ends and the extremes of each
 /// part of the line, so that peaks remain. It also keeps one NaN of each part, so that gaps remain.
 pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
@@ -160,13 +150,5 @@ mod tests {
         assert_eq!(kept.iter().filter(|point| point.1.is_nan()).count(), 1);
         assert_eq!(even(10, 4), [0, 3, 6, 9]);
         assert_eq!(even(3, 4), [0, 1, 2]);
-    }
-
-    #[test]
-    fn even_ratios_over_a_decade_are_drawn_so() {
-        assert!(is_log(&[1.0, 10.0, 100.0]));
-        assert!(!is_log(&[1.0, 2.0, 4.0]));
-        assert!(!is_log(&[1.0, 20.0, 39.0]));
-        assert!(!is_log(&[0.0, 10.0, 100.0]));
     }
 }

@@ -14,6 +14,7 @@ from matplotlib.patches import Patch
 
 from .. import _labels
 from .._data import Data, Shown, distinct, edges, is_text
+from .._flapwing import is_log
 from .._labels import better
 from . import _scales, _style
 from ._checks import checked
@@ -73,8 +74,8 @@ def heatmap(
         grid if ``drive_frequency`` does not vary. The default of `y` is the first axis of the grid that is not x. If
         the grid has fewer than two axes, the defaults for x and y are parameters of the sample.
     xscale, yscale : {"linear", "log"}, optional
-        The scales of the axes. By default, an axis is logarithmic if the ratio of neighbouring values is constant. For
-        points that form no grid, the default scale is linear.
+        The scales of the axes. By default, an axis is logarithmic if its values have a constant ratio and span a factor
+        of ten or more, as in ``flap plot``. For points that form no grid, the default scale is linear.
     cmap : str, optional
         A colour map of matplotlib. The default of `cmap` is viridis. For values of both signs, the default colour map
         is white at zero, with a line at zero.
@@ -262,7 +263,7 @@ class _Axis:
         if scale not in (None, "linear", "log"):
             raise ValueError(f'a scale is "linear" or "log", not {scale!r}')
         self.centres = values = self.keys.astype(float) * self.shown.factor
-        self.log = _scales.in_ratio(values) if scale is None else scale == "log"
+        self.log = is_log(values) if scale is None else scale == "log"
         if self.log and values[0] <= 0:
             raise ValueError(f"`{name}` cannot have a logarithmic scale: its smallest value is {self.keys[0]:g}")
         self.edges = edges(values, self.log)

@@ -13,8 +13,9 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from .._data import DESIGN, Data, Shown, distinct, edges, joined, scattered, several
+from .._flapwing import is_log
 from .._mistakes import unknown
-from . import _scales, _style
+from . import _style
 from ._checks import checked
 
 # Largest number of lines that a sample gets by default: more cannot be distinguished.
@@ -338,7 +339,7 @@ class Family:
         if handles:
             _style.legend(axes[0], legend, given, handles=handles)
         numbers = self.values.astype(float) * self.by.factor
-        log = _scales.in_ratio(numbers)
+        log = is_log(numbers)
         colours = ListedColormap(self.colours)
         mappable = ScalarMappable(BoundaryNorm(edges(numbers, log), colours.N), colours)
         spacing = "uniform" if log else "proportional"

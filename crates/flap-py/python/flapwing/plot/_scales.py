@@ -73,14 +73,6 @@ def _diverging(low: float, high: float) -> Colormap:
     return ListedColormap(mpl.colormaps[DIVERGING](places), name="signed")
 
 
-def in_ratio(values: np.ndarray) -> bool:
-    """Return True if `values` are three or more rising values with a constant ratio."""
-    if len(values) < 3 or values[0] <= 0:
-        return False
-    ratios = values[1:] / values[:-1]
-    return bool(np.ptp(ratios) < 1e-6 * ratios[0])
-
-
 def log_ticks(low: float, high: float) -> list[float]:
     """Return round numbers for the ticks of a logarithmic scale. A short scale without a power of ten also has
     ticks."""

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Colormap
 
 from .._data import Data, distinct
+from .._flapwing import is_log
 from . import _scales, _style
 from ._checks import checked
 
@@ -121,7 +122,7 @@ def points(
         return size
     shown = data.shown(color)
     if not shown.text:
-        colours = _scales.colours(shown.values, cmap, log=_scales.in_ratio(distinct(shown.values)))
+        colours = _scales.colours(shown.values, cmap, log=is_log(distinct(shown.values)))
         drawn = ax.scatter(x, y, c=shown.values, cmap=colours.cmap, norm=colours.norm, **{**look, "alpha": None})
         colours.bar(ax, drawn, colorbar, shown.label)
         return size
