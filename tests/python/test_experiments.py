@@ -94,6 +94,14 @@ def test_waveforms_are_those_of_the_command(flap, tmp_path):
     assert slower["lift_mean_mn"] == pytest.approx(flapwing.run(PRESET, drive_frequency=190)["lift_mean_mn"], rel=1e-3)
 
 
+def test_a_waveform_with_too_few_samples_is_warned_of():
+    waveform = ([0.0, 0.001, 0.0011, 0.004, 0.005], [1.0, 1.0, -1.0, -1.0, 1.0])
+    for call in (flapwing.run, flapwing.trajectory):
+        with pytest.warns(UserWarning, match="waveform: the spline through the samples lies between -10.308") as caught:
+            call("jafferis2016", waveform=waveform, drive_voltage_pp=20)
+        assert [warning.filename for warning in caught] == [__file__]
+
+
 def test_a_waveform_is_followed_once(flap, tmp_path):
     time = np.linspace(0, 0.01, 81)
     path = tmp_path / "wave.csv"

@@ -130,8 +130,9 @@ def test_derivatives_at_almost_nothing_are_those_at_zero():
 
 def test_values_that_reach_no_wing_are_warned_of():
     wings = [flapwing.Wing("left", preset="jafferis2016"), flapwing.Wing("right", mirrored=True, preset="jafferis2016")]
-    with pytest.warns(UserWarning, match="`hinge_stiffness` has no effect"):
+    with pytest.warns(UserWarning, match="`hinge_stiffness` has no effect") as caught:
         flapwing.sweep({**flapwing.Vehicle("jafferis2016", wings), "params": {"hinge_stiffness": 1.2e-6}})
+    assert {warning.filename for warning in caught} == {__file__}
 
 
 def test_states_of_a_vehicle_begin_its_motions():

@@ -1,5 +1,6 @@
 //! Converts errors to Python exceptions.
 
+use std::ffi::CString;
 use std::fmt::Display;
 use std::io;
 
@@ -16,7 +17,8 @@ use flap_sweep::notation::units::UnitError;
 use flap_sweep::run::RunError;
 use pyo3::create_exception;
 use pyo3::exceptions::{
-    PyFileExistsError, PyFileNotFoundError, PyIsADirectoryError, PyOSError, PyRuntimeError, PyValueError,
+    PyFileExistsError, PyFileNotFoundError, PyIsADirectoryError, PyOSError, PyRuntimeError, PyUserWarning,
+    PyValueError,
 };
 use pyo3::prelude::*;
 
@@ -28,6 +30,12 @@ create_exception!(
     PyValueError,
     "A grid with mistakes.\n\nThe text of the error shows every mistake with its lines, and `diagnostics` lists the mistakes."
 );
+
+/// Warns the user, with the line of the user's call.
+pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
+    let level = py.import("flapwing._mistakes")?.call_method0("callers_level")?.extract()?;
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, level)
+}
 
 /// Returns a `GridError` for mistakes in a grid, with its list of diagnostics.
 pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {

@@ -1,18 +1,15 @@
 //! Names of parameters in calls from Python, and values of parameters from keywords.
 
-use std::ffi::CString;
-
 use flap_core::parameter::{Kind, Parameter, Preset};
 use flap_core::simulate::{self, Simulator};
 use flap_sweep::notation::nearest;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
 use flap_sweep::plan::Robot;
-use pyo3::exceptions::{PyUserWarning, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
 
-use crate::convert;
-use crate::solver;
+use crate::{convert, error, solver};
 
 /// Return the names of the published parameter sets.
 ///
@@ -45,8 +42,7 @@ pub(crate) fn index(robot: &Robot, name: &str) -> PyResult<usize> {
 
 /// Warns about a parameter for all wings of a vehicle that has no effect, because each wing sets its own value.
 pub(crate) fn warn_unreached(py: Python<'_>, parameter: &Parameter) -> PyResult<()> {
-    let text = CString::new(format!("`{0}` has no effect: every wing sets its own `{0}`", parameter.name))?;
-    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 2)
+    error::warn(py, format!("`{0}` has no effect: every wing sets its own `{0}`", parameter.name))
 }
 
 /// Returns the value of `parameter` in a design point: a number in SI units, or the index of an option.

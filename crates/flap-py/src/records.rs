@@ -39,8 +39,13 @@ impl Wave {
             (None, None) => return Ok(None),
         };
         let repeat = if once { Repeat::Once } else { Repeat::Periodic };
-        let samples = samples(&read(name, source)?, &quantity, repeat)?;
-        Ok(Some(Wave { samples, is_stroke: stroke.is_some() }))
+        let record = read(name, source)?;
+        let samples = samples(&record, &quantity, repeat)?;
+        let is_stroke = stroke.is_some();
+        if let Some(warning) = record.overshoot(&samples, if is_stroke { " rad" } else { "" }) {
+            error::warn(source.py(), warning)?;
+        }
+        Ok(Some(Wave { samples, is_stroke }))
     }
 }
 

@@ -1,14 +1,12 @@
 //! Follows responses while a parameter rises and falls.
 
-use std::ffi::CString;
-
 use flap_core::parameter::{Kind, Parameter};
 use flap_sweep::notation::UserError;
 use flap_sweep::plan::{Along, Plan};
 use flap_sweep::run::{Outcome, RowWriter, Summary};
 use flap_sweep::study::response::{BandKind, EdgeRange, Edges, Responses, Verdict};
 use flap_sweep::table::layout::Layout;
-use pyo3::exceptions::{PyUserWarning, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -217,7 +215,7 @@ pub(crate) fn edges<'py>(
     ran.map_err(|error| error::run(&error))?;
     for (design, value) in missed {
         let text = format!("design {design}: no edge was found at {first} = {value}, where a band ends");
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, 2)?;
+        error::warn(py, text)?;
     }
     let meta = sweep::meta(py, &plan, &options)?;
     meta.set_item("second_parameter", plan.parameters()[index].name)?;

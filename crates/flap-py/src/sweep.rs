@@ -1,6 +1,5 @@
 //! Runs every point of a plan, into columns or into a file.
 
-use std::ffi::CString;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -14,7 +13,7 @@ use flap_sweep::plan::gradient::Gradient;
 use flap_sweep::run::identity::Identity;
 use flap_sweep::run::{self, Chunk, Progress, RowWriter, RunError, RunOptions, Sink, Summary};
 use flap_sweep::table::layout::Layout;
-use pyo3::exceptions::{PyUserWarning, PyValueError};
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
@@ -124,7 +123,7 @@ fn into_file<'py>(
         let out = job.out.display();
         let text =
             format!("{out} cannot be locked ({error}): make sure that no other run writes to this file");
-        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, 2)?;
+        error::warn(py, text)?;
     }
     if let Ok(done) = &ran {
         watch.done(done.as_ref().map_or(job.plan.selected(), |done| done.summary.points));

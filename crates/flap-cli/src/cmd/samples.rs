@@ -1,7 +1,5 @@
 //! Waveforms and motions from files.
 
-use std::path::Path;
-
 use flap_core::drive::{Repeat, Samples};
 use flap_sweep::files::record::{self, Record};
 
@@ -33,23 +31,11 @@ pub(super) fn read(args: &RunArgs) -> Result<Option<DriveRecord>, Failure> {
         }
         (None, None) => return Ok(None),
     };
-    let samples = Record::read(path)?.samples(&quantity, repeat)?;
+    let record = Record::read(path)?;
+    let samples = record.samples(&quantity, repeat)?;
     let is_stroke = args.stroke.is_some();
-    warn_of_overshoot(&samples, path, if is_stroke { " rad" } else { "" });
-    Ok(Some(DriveRecord { samples, is_stroke }))
-}
-
-/// Largest excess of the spline over the range of the samples without a warning, as a fraction of the range.
-const OVERSHOOT: f64 = 0.02;
-
-/// Warns if the spline through the samples exceeds the range of the samples.
-fn warn_of_overshoot(samples: &Samples, path: &Path, unit: &str) {
-    let ([low, high], [from, to]) = (samples.range(), samples.sample_range());
-    if (from - low).max(high - to) > OVERSHOOT * (to - from) {
-        console::warn(&format!(
-            "{}: the spline through the samples lies between {low:.3} and {high:.3}{unit}, but the samples between \
-             {from:.3} and {to:.3}{unit}; add samples where the wave changes quickly",
-            path.display()
-        ));
+    if let Some(warning) = record.overshoot(&samples, if is_stroke { " rad" } else { "" }) {
+        console::warn(&warning);
     }
+    Ok(Some(DriveRecord { samples, is_stroke }))
 }

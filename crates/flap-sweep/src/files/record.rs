@@ -182,6 +182,19 @@ impl Record {
         Samples::new(&times, &values, repeat).map_err(|error| self.wrong(&error.to_string()))
     }
 
+    /// Returns a warning if the spline through samples of the record exceeds the range of the samples. `unit` follows
+    /// the numbers in the warning.
+    pub fn overshoot(&self, samples: &Samples, unit: &str) -> Option<String> {
+        let ([low, high], [from, to]) = (samples.range(), samples.sample_range());
+        ((from - low).max(high - to) > OVERSHOOT * (to - from)).then(|| {
+            format!(
+                "{}: the spline through the samples lies between {low:.3} and {high:.3}{unit}, but the samples between \
+                 {from:.3} and {to:.3}{unit}; add samples where the wave changes quickly",
+                self.name
+            )
+        })
+    }
+
     /// Returns stroke and pitch of a filmed wing over the record's time, and the wing's centre of rotation.
     ///
     /// The wing has the points `root` and `tip` in every image. The pitch requires `chord` (in the unit of the points)
@@ -223,6 +236,9 @@ fn not_a_number(name: &str, line: u64, heading: &str, cell: &str) -> RecordError
 
 /// Smallest time between two samples, in seconds and relative to the duration.
 const LEAST_STEP: f64 = 1e-12;
+
+/// Largest excess of the spline over the range of the samples without a warning, as a fraction of the range.
+const OVERSHOOT: f64 = 0.02;
 
 /// Largest relative difference of equal numbers in two units, relative to the column's largest number.
 const SAME: f64 = 1e-6;
