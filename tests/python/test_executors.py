@@ -5,6 +5,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 
 import flapwing
@@ -110,10 +111,18 @@ def test_by_default_every_worker_gets_points(workers, threads, size):
 
 
 def test_an_exception_of_the_user_cancels_the_tasks():
-    def stop(done, points):
-        raise RuntimeError("enough")
+    class Slow(Recorder):
+        class Task(Recorder.Task):
+            def result(self):
+                # Progress is reported every 50 ms.
+                time.sleep(0.1)
+                return super().result()
 
-    recorder = Recorder()
+    def stop(done, points):
+        if done > 0:
+            raise RuntimeError("enough")
+
+    recorder = Slow()
     with pytest.raises(RuntimeError, match="enough"):
         flapwing.evaluate(
             "ozaki2018-large", {"drive_frequency": np.linspace(95, 100, 10)}, client=recorder, progress=stop

@@ -11,14 +11,15 @@ use crate::watch::Watch;
 use crate::{error, sweep};
 
 /// Run the points from `begin` up to, but not including, `end`. Return the rows as bytes, which the function `chunks`
-/// of `sweep` may return.
+/// of `sweep` may return. If `first` is given, the points are those of a larger grid, beginning at the position `first`.
 #[pyfunction]
-#[pyo3(signature = (grid, begin, end, /, *, threads=None))]
+#[pyo3(signature = (grid, begin, end, /, *, first=None, threads=None))]
 pub(crate) fn part<'py>(
     py: Python<'py>,
     grid: &Bound<'py, Grid>,
     begin: u64,
     end: u64,
+    first: Option<u64>,
     threads: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<Bound<'py, PyBytes>> {
     let plan = &grid.get().plan;
@@ -28,8 +29,10 @@ pub(crate) fn part<'py>(
         return Err(PyValueError::new_err(message));
     }
     let mut watch = Watch::new(None);
-    let ran =
-        py.detach(|| run::chunk(plan, &options, begin..end, |run| watch.stops(run.progress()))?.to_bytes());
+    let ran = py.detach(|| {
+        let chunk = run::chunk(plan, &options, begin..end, |run| watch.stops(run.progress()))?;
+        chunk.beginning_at(first.unwrap_or(begin)).to_bytes()
+    });
     watch.ended()?;
     Ok(PyBytes::new(py, &ran.map_err(|error| error::run(&error))?))
 }

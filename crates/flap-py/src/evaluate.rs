@@ -1,4 +1,4 @@
-//! Runs a batch of points, given as columns of parameters.
+//! Batches of points, given as columns of parameters.
 
 use flap_core::parameter::Kind;
 use flap_sweep::notation::text;
@@ -9,32 +9,27 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::{begin, design, parameters, sweep};
+use crate::grid::Grid;
+use crate::{begin, design, parameters};
 
-/// Run a batch of points; see `flapwing.evaluate`.
+/// Return a batch of points as a grid that `sweep` and `part` run; see `flapwing.evaluate`.
 ///
 /// `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same
 /// length. `initial_state` has one row of state components per point; a row of nan stands for a point that begins at
-/// rest.
+/// rest. The text of the grid contains neither the columns nor the keywords, so a pickle does not contain the batch.
 #[pyfunction]
 #[pyo3(signature = (
-    design, columns, /, *, threads=None, progress=None, measures=None, gradient=None, initial_state=None,
-    return_states=false, keywords=None
+    design, columns, /, *, measures=None, gradient=None, initial_state=None, return_states=false, keywords=None
 ))]
-#[expect(clippy::too_many_arguments, reason = "one per keyword")]
-pub(crate) fn evaluate<'py>(
-    py: Python<'py>,
+pub(crate) fn batch<'py>(
     design: &Bound<'py, PyAny>,
     columns: &Bound<'py, PyDict>,
-    threads: Option<&Bound<'py, PyAny>>,
-    progress: Option<Py<PyAny>>,
     measures: Option<Vec<String>>,
     gradient: Option<Vec<String>>,
     initial_state: Option<PyReadonlyArray2<'py, f64>>,
     return_states: bool,
     keywords: Option<&Bound<'py, PyDict>>,
-) -> PyResult<Bound<'py, PyDict>> {
-    let options = sweep::options(threads)?;
+) -> PyResult<Grid> {
     if let Some(keywords) = keywords {
         refuse_twice(columns, keywords)?;
     }
@@ -70,10 +65,10 @@ pub(crate) fn evaluate<'py>(
     if return_states {
         plan = plan.with_states().map_err(|error| refused(&error))?;
     }
-    sweep::into_columns(py, &plan, &options, progress, None)
+    Ok(Grid { plan })
 }
 
-/// Check that a design accepts `keywords` and has the measures `measures`. Mistakes raise the errors of `evaluate`.
+/// Check that a design accepts `keywords` and has the measures `measures`. Mistakes raise the errors of `batch`.
 #[pyfunction]
 #[pyo3(signature = (design, /, *, keywords, measures=None))]
 pub(crate) fn check(

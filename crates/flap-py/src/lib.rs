@@ -50,7 +50,7 @@ mod _flapwing {
         command::command,
         diagnostic::Diagnostic,
         error::GridError,
-        evaluate::{check, evaluate},
+        evaluate::{batch, check},
         experiments::{chirp, forces_along, impulse},
         film::track_wing,
         flight::fly,

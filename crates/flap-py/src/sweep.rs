@@ -66,7 +66,7 @@ pub(crate) fn options(threads: Option<&Bound<'_, PyAny>>) -> PyResult<RunOptions
 }
 
 /// Runs a plan and returns its `columns`, `summary`, `axes` and `meta`.
-pub(crate) fn into_columns<'py>(
+fn into_columns<'py>(
     py: Python<'py>,
     plan: &Plan,
     options: &RunOptions,

@@ -126,12 +126,14 @@ def evaluate(
         "return_states": _arguments.flag("return_states", return_states),
         "keywords": dict(keywords),
     }
+    batch = _flapwing.batch(design, given, **options)
     with shown(progress) as show:
         if client is None:
-            native = _flapwing.evaluate(design, given, threads=threads, progress=show, **options)
+            native = _flapwing.sweep(batch, threads=threads, progress=show)
         else:
             there = _arguments.executor(client)
-            native = _workers.evaluate(there, design, options, given, threads, points_per_task, show)
+            with _workers.batch_chunks(batch, design, options, given, there, threads, points_per_task) as chunks:
+                native = _flapwing.sweep(batch, progress=show, chunks=chunks.next)
     # Without axes, the table has no grid.
     return Table._of(native if len(native["axes"]) > 1 else {**native, "axes": []}, keywords=keywords)
 

@@ -14,6 +14,7 @@ __all__ = [
     "LiveServer",
     "__version__",
     "bars",
+    "batch",
     "better",
     "check",
     "chirp",
@@ -21,7 +22,6 @@ __all__ = [
     "command",
     "correlations",
     "edges",
-    "evaluate",
     "fly",
     "forces_along",
     "identity",
@@ -360,21 +360,19 @@ def forces_along(
     samples: SupportsIndex,
 ) -> dict[str, Any]: ...
 def track_wing(points: str | dict[str, Any], /, *, chord: SupportsFloat | None = None) -> dict[str, Any]: ...
-def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None: ...
-def text_of(entries: dict[str, Any], /) -> str: ...
-def evaluate(
+def batch(
     design: Any,
     columns: dict[str, Any],
     /,
     *,
-    threads: SupportsIndex | None = None,
-    progress: Callable[[int, int], object] | None = None,
     measures: list[str] | None = None,
     gradient: list[str] | None = None,
     initial_state: np.ndarray[Any, np.dtype[np.float64]] | None = None,
     return_states: bool = False,
     keywords: dict[str, Any] | None = None,
-) -> dict[str, Any]: ...
+) -> Grid: ...
+def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None: ...
+def text_of(entries: dict[str, Any], /) -> str: ...
 def respond(
     design: Any,
     parameter: str,
@@ -413,7 +411,9 @@ def sweep(
     progress: Callable[[int, int], object] | None = None,
     chunks: Callable[[int], bytes | None] | None = None,
 ) -> dict[str, Any]: ...
-def part(grid: Grid, begin: int, end: int, /, *, threads: SupportsIndex | None = None) -> bytes: ...
+def part(
+    grid: Grid, begin: int, end: int, /, *, first: int | None = None, threads: SupportsIndex | None = None
+) -> bytes: ...
 def identity() -> dict[str, str]: ...
 def command(line: list[str]) -> int: ...
 def read(path: str | PathLike[str], /, *, ignore_damage: bool = False) -> dict[str, Any]: ...

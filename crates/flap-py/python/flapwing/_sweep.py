@@ -116,7 +116,7 @@ def sweep(
         if client is None:
             native = _flapwing.sweep(checked, threads=threads, progress=show, **given)
         else:
-            with _workers.Chunks(checked, _arguments.executor(client), threads, points_per_task) as chunks:
+            with _workers.grid_chunks(checked, _arguments.executor(client), threads, points_per_task) as chunks:
                 native = _flapwing.sweep(checked, progress=show, chunks=chunks.next, **given)
     return Table._of(native, None if out is None else os.path.abspath(out), keywords)
 

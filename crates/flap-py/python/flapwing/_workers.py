@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections import Counter, deque
+from collections import deque
 from collections.abc import Callable, Generator, Iterable, Mapping
 from concurrent.futures import BrokenExecutor
 from contextlib import closing
@@ -24,8 +24,6 @@ _TASKS_PER_WORKER = 4
 #: Number of workers of an executor that does not report the number, such as submitit's, and of a cluster whose workers
 #: have not started.
 _UNKNOWN_WORKERS = 16
-#: Number of invalid points whose reasons are kept, as for a batch on one machine.
-_MOST_REASONS = 5
 
 
 def call(client: Executor | None, function: Callable[..., Any], design: Any, *arguments: Any, **keywords: Any) -> Any:
@@ -88,17 +86,22 @@ def _check_identity(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
 
 
 class Chunks:
-    """The points of a grid in ranges that workers compute. The rows are returned in the order of the points."""
+    """The rows of points in ranges that workers compute. The rows are returned in the order of the points."""
 
     def __init__(
-        self, grid: Grid, client: Executor, threads: SupportsIndex | None, points_per_task: SupportsIndex | None
+        self,
+        client: Executor,
+        task: Callable[..., bytes],
+        arguments: Callable[[int, int], tuple[Any, ...]],
+        points: int,
+        size: int,
     ) -> None:
         self._client = client
-        # Workers resolve the files of the grid to the same absolute paths as this process.
-        self._grid = (os.path.abspath(grid.name), grid.text)
-        self._points = len(grid)
-        self._threads = 1 if threads is None else threads
-        self._size = _task_size(client, self._points, self._threads, points_per_task)
+        self._task = task
+        #: Returns the arguments of the task for the points from the first number up to, but not including, the second.
+        self._arguments = arguments
+        self._points = points
+        self._size = size
         self._results: Generator[bytes, None, None] | None = None
 
     def __enter__(self) -> Chunks:
@@ -114,14 +117,62 @@ class Chunks:
         computed."""
         if self._results is None:
             begins = range(done, self._points, self._size)
-            tasks = ((*self._grid, begin, min(self._points, begin + self._size), self._threads) for begin in begins)
-            self._results = _results(self._client, _part_task, tasks)
+            tasks = (self._arguments(begin, min(self._points, begin + self._size)) for begin in begins)
+            self._results = _results(self._client, self._task, tasks)
         return next(self._results, None)
 
 
-def _part_task(name: str, text: str, begin: int, end: int, threads: SupportsIndex | None) -> bytes:
+def grid_chunks(
+    grid: Grid, client: Executor, threads: SupportsIndex | None, points_per_task: SupportsIndex | None
+) -> Chunks:
+    """Return the chunks of the points of a grid."""
+    # Workers resolve the files of the grid to the same absolute paths as this process.
+    name, text = os.path.abspath(grid.name), grid.text
+    threads = 1 if threads is None else threads
+
+    def arguments(begin: int, end: int) -> tuple[Any, ...]:
+        return name, text, begin, end, threads
+
+    return Chunks(client, _grid_task, arguments, len(grid), _task_size(client, len(grid), threads, points_per_task))
+
+
+def _grid_task(name: str, text: str, begin: int, end: int, threads: SupportsIndex) -> bytes:
     """Run the task of a worker: return the rows of a range of points of a grid, as bytes."""
     return _flapwing.part(Grid._named(name, text), begin, end, threads=threads)
+
+
+def batch_chunks(
+    batch: Grid,
+    design: Any,
+    options: dict[str, Any],
+    columns: dict[str, Any],
+    client: Executor,
+    threads: SupportsIndex | None,
+    points_per_task: SupportsIndex | None,
+) -> Chunks:
+    """Return the chunks of a batch with the columns `columns`. Each task has whole rows of the columns."""
+    rows = len(next(iter(columns.values())))
+    per_row = max(1, len(batch) // max(1, rows))
+    design, states = _portable(design), options["initial_state"]
+    threads = 1 if threads is None else threads
+    size = max(1, _task_size(client, len(batch), threads, points_per_task) // per_row) * per_row
+
+    def arguments(begin: int, end: int) -> tuple[Any, ...]:
+        part = options if states is None else {**options, "initial_state": states[begin:end]}
+        given = {name: values[begin // per_row : end // per_row] for name, values in columns.items()}
+        return design, part, given, begin, threads
+
+    return Chunks(client, _batch_task, arguments, len(batch), size)
+
+
+def _batch_task(
+    design: Any, options: dict[str, Any], columns: dict[str, Any], first: int, threads: SupportsIndex
+) -> bytes:
+    """Run the task of a worker: return the rows of a range of points of a batch, as bytes. The points are given as
+    columns of parameters, and `first` is the number of the first point in the whole batch.
+    """
+    batch = _flapwing.batch(design, _aligned(columns), **_aligned(options))
+    return _flapwing.part(batch, 0, len(batch), first=first, threads=threads)
 
 
 def _task_size(client: Executor, points: int, threads: SupportsIndex, points_per_task: SupportsIndex | None) -> int:
@@ -134,91 +185,13 @@ def _task_size(client: Executor, points: int, threads: SupportsIndex, points_per
     return max(1, min(most, -(-points // (_TASKS_PER_WORKER * _number_of_workers(client)))))
 
 
-def _evaluate_task(
-    design: Any, options: dict[str, Any], given: dict[str, Any], threads: SupportsIndex | None
-) -> dict[str, Any]:
-    """Run the task of a worker: return the rows for a range of points. The points are given as columns of
-    parameters."""
-    return _flapwing.evaluate(design, _aligned(given), threads=threads, **_aligned(options))
-
-
-def _options_of(options: dict[str, Any], begin: int, end: int) -> dict[str, Any]:
-    """Return the options of a batch for the points from `begin` up to, but not including, `end`."""
-    states = options["initial_state"]
-    return options if states is None else {**options, "initial_state": states[begin:end]}
-
-
-def evaluate(
-    client: Executor,
-    design: Any,
-    options: dict[str, Any],
-    given: dict[str, Any],
-    threads: SupportsIndex | None,
-    points_per_task: SupportsIndex | None,
-    show: Callable[[int, int], object] | None,
-) -> dict[str, Any]:
-    """Return the rows of the points in the columns `given`. Workers compute the rows."""
-    # This call reports mistakes. An empty selection has the same columns and axes as all rows.
-    empty = _evaluate_task(design, _options_of(options, 0, 0), {name: values[:0] for name, values in given.items()}, 1)
-    lengths = {name: len(values) for name, values in given.items()}
-    length = next(iter(lengths.values()))
-    points_per_row = int(np.prod([len(next(iter(axis.values()))) for axis in empty["axes"][1:]]))
-    states = options["initial_state"]
-    if len(set(lengths.values())) > 1 or (states is not None and len(states) != length * points_per_row):
-        return _evaluate_task(design, options, given, 1)
-    threads_per_task = 1 if threads is None else threads
-    size = max(
-        1, _task_size(client, length * points_per_row, threads_per_task, points_per_task) // max(1, points_per_row)
-    )
-    design = _portable(design)
-    begins = range(0, length, size)
-    tasks = (
-        (
-            design,
-            _options_of(options, begin * points_per_row, (begin + size) * points_per_row),
-            {name: values[begin : begin + size] for name, values in given.items()},
-            threads_per_task,
-        )
-        for begin in begins
-    )
-    parts = [empty]
-    with closing(_results(client, _evaluate_task, tasks)) as results:
-        for begin, part in zip(begins, results):
-            _check_identity(empty["meta"], part["meta"])
-            parts.append(_renumbered(part, begin * points_per_row))
-            if show is not None:
-                show(min(length, begin + size) * points_per_row, length * points_per_row)
-    return _joined(parts)
-
-
-def _renumbered(part: dict[str, Any], offset: int) -> dict[str, Any]:
-    """Return the rows of a part of a batch, with the point numbers of the whole batch. The first point of the part has
-    the number `offset`.
-    """
-    point = Column(*part["columns"]["point"])
-    columns = {**part["columns"], "point": point._replace(cells=point.cells + np.uint64(offset))}
-    invalid = [(point + offset, reason) for point, reason in part["summary"]["invalid"]]
-    return {**part, "columns": columns, "summary": {**part["summary"], "invalid": invalid}}
-
-
-def _joined(parts: list[dict[str, Any]]) -> dict[str, Any]:
-    """Join the rows of all parts of a batch, and return the whole batch."""
-    first = parts[0]
-    axes = list(first["axes"])
-    if axes:
-        rows = {name: [value for part in parts for value in part["axes"][0][name]] for name in axes[0]}
-        axes[0] = {**rows, "row": np.arange(len(rows["row"]), dtype=np.uint64)}
-    summary = _summed([part["summary"] for part in parts])
-    return {"columns": _columns(parts), "summary": summary, "axes": axes, "meta": first["meta"]}
-
-
 def _columns(parts: list[dict[str, Any]]) -> dict[str, Column]:
-    """Join the columns of all parts of a batch, and return the joined columns."""
+    """Join the columns of all responses, and return the joined columns."""
     return {name: _column([Column(*part["columns"][name]) for part in parts]) for name in parts[0]["columns"]}
 
 
 def _column(parts: list[Column]) -> Column:
-    """Join one column of all parts of a batch. The parts of a text column can have different lists of words."""
+    """Join one column of all responses. The parts of a text column can have different lists of words."""
     cells = [one.cells for one in parts]
     if parts[0].words is None:
         return parts[0]._replace(cells=np.concatenate(cells))
@@ -227,26 +200,6 @@ def _column(parts: list[Column]) -> Column:
     places = [np.array([words.index(word) for word in some], dtype=np.uint32) for some in listed]
     cells = [place_of[one] if len(place_of) else one for place_of, one in zip(places, cells)]
     return parts[0]._replace(cells=np.concatenate(cells), words=words)
-
-
-def _summed(summaries: list[dict[str, Any]]) -> dict[str, Any]:
-    """Return the summary of the whole batch: the sum of the summaries of all parts."""
-
-    def total(counts: list[dict[str, int]]) -> dict[str, int]:
-        summed: Counter[str] = Counter()
-        for one in counts:
-            summed.update(one)
-        return dict(summed)
-
-    return {
-        "rows": sum(summary["rows"] for summary in summaries),
-        "counts": total([summary["counts"] for summary in summaries]),
-        "excluded": sum(summary["excluded"] for summary in summaries),
-        "unsatisfied": total([summary["unsatisfied"] for summary in summaries]),
-        "cycles": sum(summary["cycles"] for summary in summaries),
-        "rhs_evals": sum(summary["rhs_evals"] for summary in summaries),
-        "invalid": [entry for summary in summaries for entry in summary["invalid"]][:_MOST_REASONS],
-    }
 
 
 def _respond_task(

@@ -46,6 +46,11 @@ pub fn chunk(
 }
 
 impl Chunk {
+    /// Returns the chunk as a part of a larger plan that has the same points beginning at position `begin`.
+    pub fn beginning_at(self, begin: u64) -> Chunk {
+        Chunk { begin, ..self }
+    }
+
     /// Returns the chunk as bytes, for a process with the same build of flap.
     ///
     /// The name of the build comes first, because another build may use another format for the rest.
