@@ -140,13 +140,18 @@ def test_files_of_such_sweeps_can_be_resumed_and_read(tmp_path):
         flapwing.sweep(THREE, out=out, drive_voltage_pp="81 V")
 
 
-def test_order_of_axes_is_kept_or_told():
-    mixed = (
-        f'preset = "{PRESET}"\n[[zip]]\nwing_length = [0.03, 0.031]\n[axes]\ndrive_frequency = [100, 105]\n'
-        "[[zip]]\nair_density = [1.1, 1.2]\n"
+def test_keywords_keep_the_text_of_the_grid():
+    grid = (
+        f'preset = "{PRESET}"  # the large one\n[[zip]]\nwing_length = [0.03, 0.031]\n[axes]\n'
+        "drive_frequency = [100, 105]\n[[zip]]\nair_density = [1.1, 1.2]\n"
     )
-    with pytest.raises(ValueError, match="order of the grid's axes\nwrite them into"):
-        flapwing.sweep(mixed, rtol=1e-5)
+    table = flapwing.sweep(grid, rtol=1e-5)
+    assert table.meta["grid"].replace("\n[solver]\nrtol = 0.00001\n", "") == grid
+    assert [list(axis) for axis in table.axes] == [list(axis) for axis in flapwing.Grid(grid).axes]
+    for params in ('[params]\ndrive_voltage_pp = "70 V"  # high', 'params.drive_voltage_pp = "70 V"', "params = {}"):
+        text = f'{params}\npreset = "{PRESET}"' if params[0] == "p" else f'preset = "{PRESET}"\n{params}'
+        row = flapwing.sweep(text, drive_voltage_pp="80 V", wing_length=0.03)
+        assert row["lift_mean_mn"][0] == flapwing.run(PRESET, drive_voltage_pp=80, wing_length=0.03)["lift_mean_mn"]
 
 
 FREQUENCIES = [100.0, 105.0, 110.0]

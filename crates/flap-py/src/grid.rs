@@ -247,7 +247,8 @@ pub(crate) fn name(design: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     Ok((!is_grid).then(|| text.into_owned()))
 }
 
-fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {
+/// Returns the plan of a text that was read from the file `name`.
+pub(crate) fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {
     let plan =
         grid::parse(name, text, simulate::all()).map_err(|diagnostics| error::grid(py, &diagnostics))?;
     with_warnings(py, plan)

@@ -16,9 +16,7 @@ const MOST_LEVELS: usize = 64;
 /// The types that an entry of a grid can have, as text for messages.
 const WANTED: &str = "a number, text, True or False, a list, an array, or a dictionary";
 
-/// Return the text of a grid file with the entries `entries`.
-#[pyfunction]
-#[pyo3(signature = (entries, /))]
+/// Returns the text of a grid file with the entries `entries`.
 pub(crate) fn text_of(entries: &Bound<'_, PyDict>) -> PyResult<String> {
     let (mut head, mut tables) = (Vec::new(), Vec::new());
     for (key, value) in entries {
@@ -147,7 +145,7 @@ fn name(key: &Bound<'_, PyAny>) -> PyResult<String> {
 }
 
 /// Returns a value on one line; `level` is the number of levels of dictionaries and lists around it.
-fn inline(value: &Bound<'_, PyAny>, place: &str, level: usize) -> PyResult<String> {
+pub(crate) fn inline(value: &Bound<'_, PyAny>, place: &str, level: usize) -> PyResult<String> {
     if level > MOST_LEVELS {
         return Err(error::no_grid(value.py(), &too_deep(place)));
     }

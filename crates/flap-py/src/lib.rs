@@ -19,6 +19,7 @@ mod film;
 mod flight;
 mod grid;
 mod grid_text;
+mod keywords;
 mod labels;
 mod linear;
 mod listing;
@@ -55,7 +56,7 @@ mod _flapwing {
         film::track_wing,
         flight::fly,
         grid::{Exclusions, Grid},
-        grid_text::text_of,
+        keywords::with_keywords,
         labels::{better, printed, scale, split_unit, unit_of, words},
         linear::linear,
         listing::{measures, params, uncertainty},

@@ -34,6 +34,11 @@ impl<'py> Keywords<'py> {
         Ok((Keywords(settings), others))
     }
 
+    /// Returns the names and values of the settings that the call gives.
+    pub(crate) fn entries(&self) -> &[Keyword<'py>] {
+        &self.0
+    }
+
     /// Replaces the settings that the call gives. `TypeError` or `ValueError` for a value that a setting cannot have.
     pub(crate) fn apply(&self, settings: &mut SolverSettings) -> PyResult<()> {
         // The order of the table matters, because rtol determines the defaults of atol and accuracy.

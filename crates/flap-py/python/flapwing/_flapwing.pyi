@@ -48,7 +48,6 @@ __all__ = [
     "split_unit",
     "states",
     "sweep",
-    "text_of",
     "track_wing",
     "trajectory",
     "uncertainty",
@@ -56,6 +55,7 @@ __all__ = [
     "usual_measure",
     "value",
     "ways",
+    "with_keywords",
     "words",
     "wrench_map",
 ]
@@ -360,6 +360,8 @@ def forces_along(
     samples: SupportsIndex,
 ) -> dict[str, Any]: ...
 def track_wing(points: str | dict[str, Any], /, *, chord: SupportsFloat | None = None) -> dict[str, Any]: ...
+def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None: ...
+def with_keywords(grid: Grid, keywords: dict[str, Any], /, *, measures: list[str] | None = None) -> Grid: ...
 def batch(
     design: Any,
     columns: dict[str, Any],
@@ -371,8 +373,6 @@ def batch(
     return_states: bool = False,
     keywords: dict[str, Any] | None = None,
 ) -> Grid: ...
-def check(design: Any, /, *, keywords: dict[str, Any], measures: list[str] | None = None) -> None: ...
-def text_of(entries: dict[str, Any], /) -> str: ...
 def respond(
     design: Any,
     parameter: str,

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tomllib
 import warnings
 from collections.abc import Mapping, Sequence
 from typing import Any, SupportsIndex
@@ -128,24 +127,7 @@ def _with_keywords(design: Design, keywords: Mapping[str, Value], measures: Sequ
     grid = design if isinstance(design, Grid) else Grid(design)
     if not keywords and measures is None:
         return grid
-    # Mistakes have the same messages as in other calls.
-    _flapwing.check(grid, keywords=dict(keywords), measures=None if measures is None else list(measures))
-    entries: dict[str, Any] = tomllib.loads(grid.text)
-    settings = _flapwing.settings()
-    for name, value in keywords.items():
-        if name not in settings:
-            entries.setdefault("params", {})[name] = value
-        elif value is not None:
-            entries.setdefault("solver", {})[name] = value
-    if measures is not None:
-        entries.setdefault("output", {})["columns"] = list(measures)
-    overlaid = Grid._named(grid.name, _flapwing.text_of(entries))
-    if [list(axis) for axis in overlaid.axes] != [list(axis) for axis in grid.axes]:
-        # A dictionary does not keep the order of several [[zip]] tables with other tables between them.
-        raise ValueError(
-            "keywords would change the order of the grid's axes\nwrite them into its [params] and [solver]"
-        )
-    return overlaid
+    return _flapwing.with_keywords(grid, dict(keywords), measures=None if measures is None else list(measures))
 
 
 def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Table:
