@@ -75,9 +75,9 @@ fn assert_same_rows(answer: &Value, csv: &str) {
 fn check_family(arguments: &[&str], folder: &Folder, family: &Value) {
     let live = Live::start(folder, arguments);
     let mut wanted = family.clone();
-    let answer = live.answer("family", wanted.clone());
+    let answer = live.answer("family", &wanted);
     wanted["kind"] = json!("grid");
-    let saved = live.answer("save", wanted);
+    let saved = live.answer("save", &wanted);
     fs::write(folder.path("family.toml"), saved["text"].as_str().unwrap()).unwrap();
     folder.ends(0, "check family.toml");
     folder.ends(0, "sweep family.toml --out family.csv --restart");
@@ -127,13 +127,13 @@ fn a_device_is_saved_whole() {
     .unwrap();
     let live = Live::start(&folder, &["bee.toml"]);
     let design = json!({ "wing_area": "50 mm^2" });
-    let saved = live.answer("save", json!({ "kind": "device", "design": design }));
+    let saved = live.answer("save", &json!({ "kind": "device", "design": design }));
     fs::write(folder.path("saved.toml"), saved["text"].as_str().unwrap()).unwrap();
     let ended = folder.ends(0, "models saved.toml --format csv");
     assert!(ended.stdout.contains("hinge_stiffness,2.2e-6,"), "{}", ended.stdout);
     assert!(ended.stdout.contains("wing_area,5e-5,"));
 
-    let point = live.answer("point", json!({ "design": design, "gradient": "lift_mean_mn" }));
+    let point = live.answer("point", &json!({ "design": design, "gradient": "lift_mean_mn" }));
     let place =
         |name: &str| point["columns"].as_array().unwrap().iter().position(|column| column == name).unwrap();
     let lift_of = |answer: &Value| answer["row"][place("lift_mean_mn")].as_f64().unwrap();
@@ -152,7 +152,7 @@ fn a_device_is_saved_whole() {
     assert!(slopes.len() > 10 && slopes.is_sorted_by(|one, next| one >= next), "{slopes:?}");
     let [less, more] = [0.995, 1.005].map(|factor| {
         let design = json!({ "wing_area": "50 mm^2", "hinge_stiffness": 2.2e-6 * factor });
-        lift_of(&live.answer("point", json!({ "design": design })))
+        lift_of(&live.answer("point", &json!({ "design": design })))
     });
     let slope = per_percent(gradient.iter().find(|slope| slope["parameter"] == "hinge_stiffness").unwrap());
     assert!((slope / (more - less) - 1.0).abs() < 1e-3, "{slope}, not {}", more - less);
@@ -171,7 +171,7 @@ fn derivatives_at_hover_are_those_of_a_sweep() {
     let row = &table(&folder.read("rows.csv"))[0];
     let live = Live::start(&folder, &["grid.toml"]);
     for measure in measures {
-        let point = live.answer("point", json!({ "gradient": measure }));
+        let point = live.answer("point", &json!({ "gradient": measure }));
         let ended = folder.ends(0, &format!("run grid.toml --gradient {measure} --format csv"));
         let printed = table(&ended.stdout);
         let of_page = |name: &str| {
@@ -204,12 +204,12 @@ fn every_example_has_a_first_view() {
         assert!(measures.contains(&&view["measure"]), "{name}: {}", view["measure"]);
         let mut x = view["x"].clone();
         x["n"] = json!(2);
-        let family = live.answer("family", json!({ "x": x, "by": view["by"] }));
+        let family = live.answer("family", &json!({ "x": x, "by": view["by"] }));
         let columns = family["columns"].as_array().unwrap();
         for measure in measures {
             assert!(columns.contains(measure), "{name}: {measure}");
         }
-        let point = live.answer("point", json!({}));
+        let point = live.answer("point", &json!({}));
         assert!(point["columns"].as_array().unwrap().contains(&view["measure"]));
     }
 }
@@ -224,7 +224,7 @@ fn saved_designs_keep_standard_errors_and_correlations() {
     fs::write(folder.path("bee.toml"), device).unwrap();
     let live = Live::start(&folder, &["bee.toml"]);
     let saved = |design: Value| {
-        let saved = live.answer("save", json!({ "kind": "device", "design": design }));
+        let saved = live.answer("save", &json!({ "kind": "device", "design": design }));
         saved["text"].as_str().unwrap().to_owned()
     };
     let whole = saved(json!({ "wing_length": 0.016 }));
@@ -236,7 +236,7 @@ fn saved_designs_keep_standard_errors_and_correlations() {
     assert!(changed.contains("sd = \"0.1 uN*m/rad\""), "{changed}");
     assert!(!changed.contains("mm^2\", sd") && !changed.contains("correlation]"), "{changed}");
     let x = json!({ "name": "hinge_stiffness", "from": 2e-6, "to": 3e-6, "n": 3 });
-    let family = live.answer("save", json!({ "kind": "grid", "x": x }));
+    let family = live.answer("save", &json!({ "kind": "grid", "x": x }));
     fs::write(folder.path("family.toml"), family["text"].as_str().unwrap()).unwrap();
     folder.ends(0, "check family.toml");
 }
@@ -252,7 +252,7 @@ fn saved_values_of_an_axis_have_no_standard_errors() {
     fs::write(folder.path("bee.toml"), device).unwrap();
     let live = Live::start(&folder, &["grid.toml"]);
     for kind in ["device", "grid"] {
-        let saved = live.answer("save", json!({ "kind": kind }));
+        let saved = live.answer("save", &json!({ "kind": kind }));
         let text = saved["text"].as_str().unwrap();
         let line = |name: &str| text.lines().find(|line| line.starts_with(&format!("{name} = "))).unwrap();
         assert!(line("wing_area").contains("sd = ") && !line("hinge_stiffness").contains("sd = "), "{text}");
@@ -265,8 +265,8 @@ fn the_saved_response_is_that_of_the_page() {
     let folder = Folder::new();
     let live = Live::start(&folder, &["ozaki2018-large"]);
     let x = json!({ "name": "drive_frequency", "from": 100.0, "to": 120.0, "n": 8 });
-    let curve = live.answer("hysteresis", json!({ "x": x }));
-    let saved = live.answer("save", json!({ "kind": "grid", "updown": true, "x": x }));
+    let curve = live.answer("hysteresis", &json!({ "x": x }));
+    let saved = live.answer("save", &json!({ "kind": "grid", "updown": true, "x": x }));
     assert_eq!(saved["name"], "response.toml");
     let text = saved["text"].as_str().unwrap();
     fs::write(folder.path("response.toml"), text).unwrap();
@@ -274,7 +274,7 @@ fn the_saved_response_is_that_of_the_page() {
     folder.ends(0, command);
     assert_same_rows(&curve, &folder.read("response.csv"));
     let (_, grid) = text.split_once('\n').unwrap();
-    let python = live.answer("save", json!({ "kind": "python", "updown": true, "x": x }));
+    let python = live.answer("save", &json!({ "kind": "python", "updown": true, "x": x }));
     let call =
         format!("import flapwing\n\ncurve = flapwing.respond(\"\"\"\\\n{grid}\"\"\", \"drive_frequency\")\n");
     assert_eq!(python["text"], call);
@@ -284,12 +284,12 @@ fn the_saved_response_is_that_of_the_page() {
 fn motion_and_hysteresis_are_those_of_the_commands() {
     let folder = Folder::new();
     let live = Live::start(&folder, &["ozaki2018-large"]);
-    let motion = live.answer("motion", json!({ "samples": 50 }));
+    let motion = live.answer("motion", &json!({ "samples": 50 }));
     folder.ends(0, "run ozaki2018-large --trajectory motion.csv --cycles 1 --samples 50");
     assert_same_rows(&motion, &folder.read("motion.csv"));
 
     let x = json!({ "name": "drive_frequency", "from": 100.0, "to": 120.0, "n": 6 });
-    let curve = live.answer("hysteresis", json!({ "x": x }));
+    let curve = live.answer("hysteresis", &json!({ "x": x }));
     folder.ends(
         0,
         "respond ozaki2018-large --along drive_frequency --from 100 --to 120 --step 4 --out curve.csv",
@@ -303,7 +303,7 @@ fn the_motion_of_a_branch_begins_in_the_state_of_its_row() {
     let live = Live::start(&folder, &["jafferis2016"]);
     let mut design = json!({ "hinge_stiffness": 0.7486e-6, "drive_voltage_pp": 160.0 });
     let x = json!({ "name": "drive_frequency", "from": 122.0, "to": 130.0, "n": 3 });
-    let curve = live.answer("hysteresis", json!({ "design": design, "x": x }));
+    let curve = live.answer("hysteresis", &json!({ "design": design, "x": x }));
     let place =
         |name: &str| curve["columns"].as_array().unwrap().iter().position(|column| column == name).unwrap();
     // At 126 Hz there are two motions.
@@ -314,7 +314,7 @@ fn the_motion_of_a_branch_begins_in_the_state_of_its_row() {
             |row: &Value| row[place("branch")] == branch && row[place("drive_frequency")] == 126.0;
         let row = rows.iter().position(is_wanted).unwrap();
         let begin = &curve["states"][row];
-        let motion = live.answer("motion", json!({ "design": design, "samples": 400, "begin": begin }));
+        let motion = live.answer("motion", &json!({ "design": design, "samples": 400, "begin": begin }));
         let column = motion["columns"].as_array().unwrap().iter().position(|name| name == "stroke_deg");
         let samples = motion["rows"].as_array().unwrap().iter();
         let stroke = samples.map(|row| row[column.unwrap()].as_f64().unwrap());
@@ -325,7 +325,7 @@ fn the_motion_of_a_branch_begins_in_the_state_of_its_row() {
         of_row
     });
     assert!((strokes[0] - strokes[1]).abs() > 20.0, "{strokes:?}");
-    let (status, answer) = live.ask("motion", json!({ "design": design, "samples": 9, "begin": [1.0] }));
+    let (status, answer) = live.ask("motion", &json!({ "design": design, "samples": 9, "begin": [1.0] }));
     assert_eq!(status, 422, "{answer}");
 }
 
@@ -352,7 +352,7 @@ fn devices_of_wings_are_those_that_were_opened() {
     fs::write(folder.path("designs/vehicle.toml"), VEHICLE).unwrap();
     let live = Live::start(&folder, &["designs/vehicle.toml"]);
     fs::write(folder.path("designs/bee.toml"), BEE.replace("2.2", "1.8")).unwrap();
-    let point = live.answer("point", json!({ "design": { "drive_voltage_pp": "150 V" } }));
+    let point = live.answer("point", &json!({ "design": { "drive_voltage_pp": "150 V" } }));
     assert_eq!(point["values"]["left_hinge_stiffness"], 2.2e-6);
     assert_eq!(point["values"]["drive_voltage_pp"], 150.0);
     assert_eq!(point["values"]["drive_shape"], "sine");
@@ -377,9 +377,9 @@ fn a_value_of_the_preset_or_the_vehicle_cannot_be_removed() {
     fs::write(folder.path("bee.toml"), BEE).unwrap();
     fs::write(folder.path("vehicle.toml"), VEHICLE).unwrap();
     let live = Live::start(&folder, &["vehicle.toml"]);
-    let (status, answer) = live.ask("point", json!({ "design": { "total_mass": null } }));
+    let (status, answer) = live.ask("point", &json!({ "design": { "total_mass": null } }));
     assert_eq!((status, answer["parameter"].as_str()), (422, Some("total_mass")), "{answer}");
-    let unset = live.answer("point", json!({ "design": { "right_hinge_stiffness": null } }));
+    let unset = live.answer("point", &json!({ "design": { "right_hinge_stiffness": null } }));
     assert_eq!(unset["values"]["right_hinge_stiffness"], Value::Null);
 }
 
@@ -394,20 +394,20 @@ fn impossible_values_are_refused_with_their_parameter() {
         (json!({ "drive_shape": "cosine" }), Some("drive_shape"), "cosine"),
         (json!({ "hinge_stifness": 1.0 }), None, "hinge_stifness"),
     ] {
-        let (status, answer) = live.ask("family", json!({ "design": design, "x": x }));
+        let (status, answer) = live.ask("family", &json!({ "design": design, "x": x }));
         assert_eq!(status, 422, "{answer}");
         assert_eq!(answer["parameter"].as_str(), parameter, "{answer}");
         assert!(answer["error"].as_str().unwrap().contains(text), "{answer}");
     }
     let too_many = json!({ "x": { "name": "drive_frequency", "from": 1.0, "to": 2.0, "n": 4001 } });
-    assert_eq!(live.ask("family", too_many).0, 422);
+    assert_eq!(live.ask("family", &too_many).0, 422);
     let (status, answer) =
-        live.ask("family", json!({ "x": { "name": "drive_frequency", "from": 100, "to": 100.0, "n": 9 } }));
+        live.ask("family", &json!({ "x": { "name": "drive_frequency", "from": 100, "to": 100.0, "n": 9 } }));
     assert_eq!(status, 422);
     assert!(answer["error"].as_str().unwrap().contains("two different ends"), "{answer}");
     // Parameters that are impossible together make a row, as in a sweep.
     let whole =
-        live.answer("family", json!({ "design": { "drive_rise": 0.9, "drive_shape": "square" }, "x": x }));
+        live.answer("family", &json!({ "design": { "drive_rise": 0.9, "drive_shape": "square" }, "x": x }));
     let place = whole["columns"].as_array().unwrap().iter().position(|name| name == "status").unwrap();
     assert_eq!(whole["rows"][0][place], "invalid");
 }
@@ -416,7 +416,7 @@ fn impossible_values_are_refused_with_their_parameter() {
 fn a_value_far_from_the_preset_has_a_warning() {
     let folder = Folder::new();
     let live = Live::start(&folder, &["jafferis2016"]);
-    let warnings = |design: Value| live.answer("point", json!({ "design": design }))["warnings"].clone();
+    let warnings = |design: Value| live.answer("point", &json!({ "design": design }))["warnings"].clone();
     assert_eq!(warnings(json!({ "drive_voltage_pp": 150.0 })), json!([]));
     let far = warnings(json!({ "drive_voltage_pp": 200_160.0 }));
     assert!(far[0].as_str().unwrap().contains("times the preset's"), "{far}");
@@ -442,7 +442,7 @@ fn a_closed_connection_cancels_its_request() {
         // The computation begins.
         std::thread::sleep(Duration::from_millis(50));
     }
-    live.answer("family", json!({ "x": { "name": "drive_frequency", "from": 100.0, "to": 110.0, "n": 2 } }));
+    live.answer("family", &json!({ "x": { "name": "drive_frequency", "from": 100.0, "to": 110.0, "n": 2 } }));
 }
 
 #[test]
@@ -471,12 +471,12 @@ fn commands_and_grids_of_the_page_on_it_work() {
         // The port may be taken where the test runs.
         let words: Vec<&str> = words.filter(|word| !["--no-open", "--port", "8123"].contains(word)).collect();
         let live = Live::start(&folder, &words);
-        live.answer("save", json!({ "kind": "grid" }));
+        live.answer("save", &json!({ "kind": "grid" }));
     }
     let live = Live::start(&folder, &["jafferis2016"]);
     let saved = live.answer(
         "save",
-        json!({
+        &json!({
             "kind": "grid", "design": { "hinge_stiffness": 1.6e-6 },
             "x": { "name": "drive_frequency", "from": 72, "to": 168, "n": 81 },
             "by": { "name": "drive_voltage_pp", "values": [50, 100, 150, 200, 250] },

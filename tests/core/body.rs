@@ -519,9 +519,9 @@ fn a_frozen_wing_at_rest_has_no_derivatives_by_the_motion_of_the_body() {
         |name: &str, size: f64| Change { ahead: moved(name, size), behind: moved(name, -size), size };
     let changes = [change("body_velocity_up", 1e-8), change("drive_voltage_pp", 1e-6)];
     let found = model.gradients().unwrap().gradient(&run, &row.state, &changes).unwrap();
-    assert!(found.slopes[0].iter().all(|slope| slope.is_err()), "{:?}", found.slopes[0]);
+    assert!(found.slopes[0].iter().all(Result::is_err), "{:?}", found.slopes[0]);
     assert!(found.slopes[0].contains(&Err(NoSlope::Edge)), "{:?}", found.slopes[0]);
-    assert!(found.slopes[1].iter().any(|slope| slope.is_ok()), "{:?}", found.slopes[1]);
+    assert!(found.slopes[1].iter().any(Result::is_ok), "{:?}", found.slopes[1]);
 }
 
 /// A wing that stands still in the wind has the lift ½ρA V² b_L sin 2ψ and the drag ½ρA V² (b₁ + b₂ cos 2ψ).

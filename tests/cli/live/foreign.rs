@@ -63,7 +63,7 @@ fn a_thousand_broken_and_foreign_requests() {
     for status in [400, 401, 403, 404, 405, 413, 422] {
         assert!(statuses.contains_key(&status), "no request was answered {status}: {statuses:?}");
     }
-    let (status, _) = live.ask("family", serde_json::from_str(&good).unwrap());
+    let (status, _) = live.ask("family", &serde_json::from_str(&good).unwrap());
     assert_eq!(status, 200, "the server goes on");
     assert_eq!(folder.names(), ["secret.toml"], "nothing is written");
 }
@@ -177,7 +177,7 @@ fn connections_that_send_half_a_head_do_not_block_others() {
         })
         .collect();
     // More than the server takes at a time: the answer comes when the first have been given up.
-    live.answer("save", json!({ "kind": "grid" }));
+    live.answer("save", &json!({ "kind": "grid" }));
     for mut stream in idle {
         stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
         let mut rest = Vec::new();
@@ -203,7 +203,7 @@ fn connections_that_read_no_answers_do_not_block_others() {
             })
             .collect();
         let begun = std::time::Instant::now();
-        live.answer("save", json!({ "kind": "grid" }));
+        live.answer("save", &json!({ "kind": "grid" }));
         assert!(begun.elapsed() < Duration::from_secs(30), "{:?}", begun.elapsed());
         drop(unread);
     }

@@ -73,7 +73,7 @@ impl Live {
     }
 
     /// The answer to a request of the page.
-    pub(super) fn ask(&self, kind: &str, body: Value) -> (u16, Value) {
+    pub(super) fn ask(&self, kind: &str, body: &Value) -> (u16, Value) {
         let answer = self.send(self.request(kind, &body.to_string()).as_bytes()).expect("an answer");
         (answer.status, serde_json::from_str(&answer.body).expect("JSON"))
     }
@@ -91,7 +91,7 @@ impl Live {
 
     /// The answer to a request that must have an answer.
     #[track_caller]
-    pub(super) fn answer(&self, kind: &str, body: Value) -> Value {
+    pub(super) fn answer(&self, kind: &str, body: &Value) -> Value {
         let (status, answer) = self.ask(kind, body);
         assert_eq!(status, 200, "{answer}");
         answer

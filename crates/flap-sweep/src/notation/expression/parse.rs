@@ -202,16 +202,15 @@ impl<'a> Parser<'a> {
     /// with which the number is compared.
     fn quantity(&mut self, quantity: &str, span: Range<usize>) -> Operand {
         let unit = self.compared().and_then(|name| Some((name, self.scope.unit(name)?)));
-        let converted = match unit {
-            Some((name, unit)) => units::parse_in(quantity, &unit).map_err(|error| ExpressionError {
+        let converted = if let Some((name, unit)) = unit {
+            units::parse_in(quantity, &unit).map_err(|error| ExpressionError {
                 help: error.help(),
                 ..ExpressionError::new(span.clone(), error.message(name))
-            }),
-            None => {
-                let message = format!("`{quantity}` is not compared with a column");
-                let help = "a number with a unit stands beside a column: drive_frequency > 95 Hz";
-                Err(ExpressionError::new(span.clone(), message).helps(help))
-            }
+            })
+        } else {
+            let message = format!("`{quantity}` is not compared with a column");
+            let help = "a number with a unit stands beside a column: drive_frequency > 95 Hz";
+            Err(ExpressionError::new(span.clone(), message).helps(help))
         };
         let kind = converted.as_ref().ok().map(|_| Kind::Number);
         match converted {
@@ -224,7 +223,8 @@ impl<'a> Parser<'a> {
     /// Returns the name with which the last consumed number is compared. The name is the token before or after the sign
     /// of the comparison.
     fn compared(&self) -> Option<&'a str> {
-        let is_comparison = |token: &Token<'_>| matches!(infix(token), Some((_, precedence::COMPARISON)));
+        let is_comparison =
+            |token: &Token<'_>| infix(token).is_some_and(|operator| operator.binds == precedence::COMPARISON);
         let before = self.consumed.iter().rev().skip(1);
         let mut before = before.skip_while(|token| matches!(token, Token::Sign("+" | "-")));
         let name = if before.next().is_some_and(is_comparison) {
