@@ -29,11 +29,12 @@ fn print_table(file: &Path) -> Option<()> {
     let told: Value = serde_json::from_str(&fs::read_to_string(file).ok()?).ok()?;
     println!(
         "![CPU time per point and peak memory over the number of points](../pictures/growth.svg)\n\n\
-         The next table is for sweeps of `{}` on {}:\n\n\
+         The next table is for sweeps of `{}` on {} with {} hardware threads:\n\n\
          | points | rtol | sweep | points per second | CPU time per point, µs | peak memory, MiB | file, MB |\n\
          |---|---|---|---|---|---|---|",
         told["preset"].as_str()?,
-        told["processor"].as_str()?
+        told["processor"].as_str()?,
+        told["hardware_threads"].as_u64()?
     );
     for run in told["runs"].as_array()? {
         let points = run["points"].as_f64()?;

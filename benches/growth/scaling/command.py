@@ -69,6 +69,7 @@ def measure(options: argparse.Namespace) -> dict[str, Any]:
     return {
         "date": time.strftime("%Y-%m-%d"),
         "processor": processor(),
+        "hardware_threads": os.cpu_count(),
         "load": os.getloadavg()[0],
         "preset": PRESET,
         "runs": runs,

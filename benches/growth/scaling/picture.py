@@ -92,8 +92,9 @@ def legend(runs: Sequence[Run]) -> Iterator[str]:
     """Yield the legend above the panels: colours stand for the kinds of sweeps, and dashes stand for tolerances."""
     keys = [(name, colour, "") for name, colour in ways(runs)]
     keys += [(f"rtol {tolerance(rtol)}", "#444", dash) for rtol, dash in tolerances(runs)]
+    spacing = min(150, (WIDTH - 60) // len(keys))
     for number, (text, colour, dash) in enumerate(keys):
-        x = 60 + 150 * number
+        x = 60 + spacing * number
         yield f'<path class="line" stroke="{colour}"{dash} d="M{x} 24h30"/>'
         yield f'<text x="{x + 38}" y="28">{escape(text)}</text>'
 
