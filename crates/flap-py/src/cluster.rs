@@ -11,7 +11,8 @@ use crate::watch::Watch;
 use crate::{error, sweep};
 
 /// Run the points from `begin` up to, but not including, `end`. Return the rows as bytes, which the function `chunks`
-/// of `sweep` may return. If `first` is given, the points are those of a larger grid, beginning at the position `first`.
+/// of `sweep` may return. If `first` is given, the points belong to a larger grid, in which they begin at the position
+/// `first`.
 #[pyfunction]
 #[pyo3(signature = (grid, begin, end, /, *, first=None, threads=None))]
 pub(crate) fn part<'py>(

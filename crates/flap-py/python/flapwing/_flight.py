@@ -86,7 +86,8 @@ def fly(
     ------
     ValueError
         Raised if the design is no vehicle, or a mass property is missing or impossible. Raised if a state or an input
-        is unknown, an input is derived, or the shape of `gains` is wrong. Raised if the motion of the wings is not periodic.
+        is unknown, an input is derived, or the shape of `gains` is wrong. Raised if the motion of the wings is not
+        periodic.
     TypeError
         Raised if an argument has the wrong type.
 

@@ -229,7 +229,8 @@ class Vehicle(_Entries):
         ------
         ValueError
             Raised if a mass property is missing or impossible, an input is unknown or derived, or the motion of the
-            wings is not periodic. Raised if `trim` is true, but the vehicle hovers at no values of the inputs near the point.
+            wings is not periodic. Raised if `trim` is true, but the vehicle hovers at no values of the inputs near the
+            point.
 
         Examples
         --------

@@ -1,7 +1,8 @@
 //! The choice between linear and logarithmic scales.
 
-/// Returns true if an axis, or a colour bar, with these rising values is logarithmic: the values have a constant ratio
-/// and span a decade or more.
+/// Returns true if an axis or a colour bar with these rising values is logarithmic.
+///
+/// The values then have a constant ratio, and span a decade or more.
 pub fn is_log(values: &[f64]) -> bool {
     let (Some(first), Some(last)) = (values.first(), values.last()) else { return false };
     if values.len() < 3 || *first <= 0.0 || last / first < 9.99 {
