@@ -30,12 +30,12 @@ pub struct Description<'a> {
     /// True if the model computes the [`load`](Model::load) of the wing. Rows then contain the load if
     /// [`SolverSettings::loads`](crate::simulate::SolverSettings::loads) is set.
     pub loads: bool,
-    /// Values of the parameters that depend on a user-defined wing. `None` if the model does not support such a wing.
-    pub wing: Option<OfWing>,
+    /// Parameters that depend on a user-defined wing. `None` if the model does not support such a wing.
+    pub wing: Option<WingParameters>,
 }
 
-/// Returns the parameters that depend on a user-defined wing, by name, in SI units.
-pub type OfWing = fn(&Wing) -> Vec<(&'static str, f64)>;
+/// Function that returns the parameters that depend on a user-defined wing, by name, in SI units.
+pub type WingParameters = fn(&Wing) -> Vec<(&'static str, f64)>;
 
 impl Description<'static> {
     /// Returns the description of a model with a pitch sign of 1, without loads and without user-defined wings.

@@ -23,7 +23,7 @@ pub mod stroke_and_pitch;
 mod terms;
 mod totals;
 
-pub use definition::{Derived, Description, Instant, Model, OfWing, SecondHalf, Symmetry};
+pub use definition::{Derived, Description, Instant, Model, SecondHalf, Symmetry, WingParameters};
 pub use experiment::{ExperimentModel, Imposed};
 pub use load::Load;
 pub(crate) use signal::GRAVITY;

@@ -34,6 +34,6 @@ impl From<RunError> for Refused {
 pub(super) fn unfinished(reason: Unfinished) -> Refused {
     match reason {
         Unfinished::Interrupted => Refused::Cancelled,
-        other @ Unfinished::Invalid(_) => Refused::impossible(other.to_string()),
+        Unfinished::Invalid(reason) => Refused::impossible(reason.to_string()),
     }
 }
