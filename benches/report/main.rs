@@ -60,8 +60,8 @@ fn main() {
         "<!-- The command `just bench-report` writes this page. Change the texts in benches/report. -->\n"
     );
     println!(
-        "This page reports the speed and memory of flap on one machine, and compares flap with other solvers.\n\
-         The numbers differ between machines.\n\
+        "This page reports the speed and memory of flap, and compares flap with other solvers.\n\
+         The numbers differ between machines: the machine below is for tables that name no processor.\n\
          Measured numbers are medians of several rounds, with the smallest and the largest value in parentheses.\n"
     );
     machine::print();
