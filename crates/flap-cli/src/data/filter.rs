@@ -116,7 +116,7 @@ impl Filters {
                 let names = source.names().to_vec();
                 let units: Vec<String> = (0..names.len()).map(|column| source.unit(column)).collect();
                 let compared = Compared::of(text);
-                let scope = Columns { names: &names, units: &units, compared: &compared };
+                let scope = ColumnScope { names: &names, units: &units, compared: &compared };
                 let expression = comparison(text, &scope)?;
                 let texts = names.iter().enumerate().filter(|(_, name)| compared.is_text(name));
                 let texts = texts.map(|(column, name)| TextColumn::new(column, name)).collect();
@@ -304,14 +304,14 @@ impl<'t> Compared<'t> {
     }
 }
 
-/// The names and the units of columns.
-struct Columns<'n> {
+/// The columns that a comparison may name.
+struct ColumnScope<'n> {
     names: &'n [String],
     units: &'n [String],
     compared: &'n Compared<'n>,
 }
 
-impl Scope for Columns<'_> {
+impl Scope for ColumnScope<'_> {
     fn meaning(&self, name: &str) -> Option<Meaning<'_>> {
         let column = self.names.iter().position(|known| known == name)?;
         Some(match name {
@@ -351,7 +351,7 @@ pub(crate) fn printed(text: &str) -> String {
 }
 
 /// Parses the comparison `text`.
-fn comparison(text: &str, scope: &Columns<'_>) -> Result<Expression, Failure> {
+fn comparison(text: &str, scope: &ColumnScope<'_>) -> Result<Expression, Failure> {
     let refused = |error: ExpressionError| {
         let failure = Failure::usage(format!("--where {text}: {}", error.message));
         match error.mistake {
