@@ -348,6 +348,8 @@ def test_fits_of_other_readings_are_refused(change, message):
 def test_mistakes_in_calls():
     with pytest.raises(TypeError, match="`fits` has an entry that is str"):
         flapwing.compare(["one", "two"])
+    with pytest.raises(TypeError, match="(?s)`fits` is int.*it must be a list of results of flapwing.fit"):
+        flapwing.compare(3)
     with pytest.raises(ValueError, match="`fits` has 0 fits"):
         flapwing.compare([])
     for keywords, message in [

@@ -65,6 +65,8 @@ def test_mistakes_of_damping_and_eigenvalues_have_help():
     ]:
         with pytest.raises(ValueError, match=message):
             flapwing.hover_eigenvalues(rows, mass, inertia)
+    with pytest.raises(TypeError, match="`rows` is int"):
+        flapwing.hover_eigenvalues(3, 69e-6, [1e-9, 1e-9, 1e-9])
 
 
 def test_rows_at_hover_have_the_numbers_of_the_linear_model():

@@ -84,6 +84,11 @@ def test_a_histogram_has_the_chosen_percentiles(sample):
     assert "list of percentages" in message(TypeError, plot.histogram, sample, percentiles="half")
 
 
+def test_statistics_need_names_of_measures(sample):
+    told = message(TypeError, analysis.describe, sample, measures=3)
+    assert told == '`measures` is int\nit must be a list of names such as ["lift_mean_mn"]'
+
+
 def test_statistics_of_a_sample(sample):
     found = analysis.describe(sample, percentiles=[10, 50])
     assert list(found) == [name for name in sample.columns[4:] if np.isfinite(sample[name]).any()]

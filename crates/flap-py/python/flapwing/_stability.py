@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from ._arguments import columns_of
 from ._table import Table
 from ._types import Array
 
@@ -65,15 +66,18 @@ def hover_eigenvalues(
         Raised if a column of the damping matrix is missing, or `body_inertia` has not three entries. Raised if an
         argument is not a number or an array with a number for each row. Raised if the inertia of the body is not
         positive definite.
+    TypeError
+        Raised if `rows` has no columns.
     """
     columns = [[f"d_{of}_per_si_body_{by}" for by in _MOTION] for of in _WRENCH]
-    missing = [name for line in columns for name in line if name not in rows]
+    given = columns_of("rows", rows)
+    missing = [name for line in columns for name in line if name not in given]
     if missing:
         raise ValueError(
             f"the rows lack {len(missing)} of the 36 columns of the damping matrix, such as `{missing[0]}`\n"
             "set damping = true in the section [vehicle] of the grid file, and sweep again"
         )
-    damping = np.array([[np.asarray(rows[name], dtype=np.float64) for name in line] for line in columns])
+    damping = np.array([[np.asarray(given[name], dtype=np.float64) for name in line] for line in columns])
     damping = np.moveaxis(damping * np.array(list(_WRENCH.values()))[:, None, None], 2, 0)
     count = len(damping)
     if isinstance(body_inertia, (str, Mapping)) or not hasattr(body_inertia, "__len__") or len(body_inertia) != 3:

@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from ._arguments import name_list
 from ._data import Data, is_text
 from ._evaluate import evaluate
 from ._flapwing import correlations, printed
@@ -171,7 +172,7 @@ def _ranges(
     elif isinstance(parameters, Mapping):
         chosen = dict(parameters)
     else:
-        chosen = dict.fromkeys(_names(parameters), change)
+        chosen = dict.fromkeys(_names("parameters", parameters, "hinge_stiffness"), change)
     for name, spread in chosen.items():
         if name not in known:
             raise unknown("parameter", name, known)
@@ -271,7 +272,7 @@ def rank_correlations(
     designs = int(np.isfinite(values).sum())
     if not designs:
         raise ValueError(f"no row has a number for `{measure}`")
-    names = _parameters(data) if parameters is None else _names(parameters)
+    names = _parameters(data) if parameters is None else _names("parameters", parameters, "hinge_stiffness")
     columns = [np.ascontiguousarray(data.numbers(name)) for name in names]
     found = correlations(columns, np.ascontiguousarray(values))
     if not found:
@@ -279,9 +280,9 @@ def rank_correlations(
     return [RankCorrelation(names[place], size, measure, designs) for place, size in found]
 
 
-def _names(given: str | Iterable[str]) -> list[str]:
+def _names(argument: str, given: str | Iterable[str], example: str) -> list[str]:
     """Return one name, or several names, as a list."""
-    return [given] if isinstance(given, str) else list(given)
+    return [given] if isinstance(given, str) else name_list(argument, given, example) or []
 
 
 def _parameters(data: Data) -> list[str]:
@@ -397,6 +398,8 @@ def describe(
     ValueError
         Raised if a column or value is unknown. Raised if no design has a value of one of the measures. Raised if a
         percentage is not from 0 to 100.
+    TypeError
+        Raised if `measures` is not a name or a list of names.
 
     Examples
     --------
@@ -409,7 +412,7 @@ def describe(
     """
     data = Data.of(table).slice(where, slices).one_sample()
     chosen = percentages(percentiles)
-    names = data.measures() if measures is None else _names(measures)
+    names = data.measures() if measures is None else _names("measures", measures, "lift_mean_mn")
     found = {}
     for name in names:
         values = np.where(data.measured(), data.numbers(name), np.nan)

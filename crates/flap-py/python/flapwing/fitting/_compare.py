@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from .. import _arguments
+from .._mistakes import reading
 from .._types import Mask
 from . import _assess, _report, _solution
 from ._criteria import criteria
@@ -261,7 +262,7 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
         Raised if `fits` has fewer than two entries. Raised if the fits have different readings, a robust loss,
         parameters with a `spread`, or too few readings in common.
     TypeError
-        Raised if an entry of `fits` is not a `Fit`.
+        Raised if `fits` is not a list, or an entry of `fits` is not a `Fit`.
 
     Examples
     --------
@@ -271,7 +272,8 @@ def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Compa
     >>> flapwing.compare(fits, names=["hinge", "air"]).chosen
     'air'
     """
-    listed = list(fits)
+    with reading("fits", fits, "it must be a list of results of flapwing.fit"):
+        listed = list(fits)
     for one in listed:
         if not isinstance(one, Fit):
             raise TypeError(f"`fits` has an entry that is {type(one).__name__}\nit must have results of flapwing.fit")
