@@ -94,7 +94,7 @@ pub(crate) fn with_help(message: impl Display, help: Option<impl Display>) -> Py
     PyValueError::new_err(format!("{message}{help}"))
 }
 
-/// Returns a `ValueError` for a motion that could not be computed to its end.
+/// Returns a `ValueError` for a motion that could not be computed. `reason` is the message.
 pub(crate) fn unfinished(reason: &impl Display) -> PyErr {
     PyValueError::new_err(reason.to_string())
 }

@@ -132,7 +132,7 @@ pub(crate) fn run_with_progress(
     let (ended, bar) = match Responses::of(plan) {
         None => {
             let mut bar = Bar::new("points");
-            let ran = output.run_points(options, |progress| shown(&mut bar, progress, &stop));
+            let ran = output.run_points(options, |progress| show_and_check(&mut bar, progress, &stop));
             (ran, bar)
         }
         Some(responses) => {
@@ -154,7 +154,7 @@ fn write_curves(
     mut verdicts: Option<&mut Verdicts<'_>>,
 ) -> Result<(), RunError> {
     loop {
-        if shown(bar, run.progress(), stop) {
+        if show_and_check(bar, run.progress(), stop) {
             run.stop();
         }
         let Some(curves) = run.next_batch()? else { return Ok(()) };
@@ -168,8 +168,8 @@ fn write_curves(
     }
 }
 
-/// Moves the progress bar. Returns true after a signal, which stops the run.
-fn shown(bar: &mut Bar, progress: Progress, stop: &AtomicBool) -> bool {
+/// Moves the progress bar. Returns true after a signal, so that the caller stops the run.
+fn show_and_check(bar: &mut Bar, progress: Progress, stop: &AtomicBool) -> bool {
     let is_stopped = stop.load(Ordering::Relaxed);
     bar.show(progress, is_stopped);
     is_stopped

@@ -9,7 +9,7 @@ use crate::parameter::Invalid;
 
 /// Returns the start of a point, at rest or at `state`.
 ///
-/// If rows contain no loads, the motion of the body must not be in the loads alone.
+/// If rows contain no loads, a moving body must not have the response "frozen".
 pub(super) fn start_at<M: Model<N>, const N: usize>(
     model: &M,
     solver: &SolverSettings,

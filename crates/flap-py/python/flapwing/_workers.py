@@ -86,7 +86,7 @@ def _check_identity(ours: Mapping[str, Any], theirs: Mapping[str, Any]) -> None:
 
 
 class Chunks:
-    """The rows of points in ranges that workers compute. The rows are returned in the order of the points."""
+    """Rows that workers compute. Each task computes a range of points, and the rows are in the order of the points."""
 
     def __init__(
         self,

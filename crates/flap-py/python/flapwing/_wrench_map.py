@@ -161,9 +161,9 @@ def wrench_map(
     Raises
     ------
     ValueError
-        Raised if the design is no vehicle. Raised if an input or a unit is unknown. Raised if the smallest value of a
-        range is not below the largest value of the range. Raised if the number of samples or of periodic rows is too
-        small for the number of coefficients. A grid with mistakes raises GridError.
+        Raised if the design is no vehicle. Raised if an input or a unit is unknown, or an input is derived. Raised if
+        the smallest value of a range is not below the largest value of the range. Raised if the number of samples or of
+        periodic rows is too small for the number of coefficients. A grid with mistakes raises GridError.
     TypeError
         Raised if an argument has the wrong type.
 

@@ -122,6 +122,8 @@ def sensitivities(
     ValueError
         Raised if the design, the measure or a parameter is unknown. Raised if a change is zero. Raised if the motion of
         the design is not periodic.
+    TypeError
+        Raised if `parameters` is not a name, a list of names or a mapping.
 
     Examples
     --------
@@ -254,6 +256,8 @@ def rank_correlations(
     ValueError
         Raised if a column or value is unknown. Raised if no design has a value of the measure. Raised if no parameter
         varies.
+    TypeError
+        Raised if `parameters` is not a name or a list of names.
 
     Examples
     --------

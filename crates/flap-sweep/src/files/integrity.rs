@@ -88,7 +88,8 @@ impl fmt::Display for Damage {
     }
 }
 
-/// Returns the message about a sidecar whose identity has `differences` from the identity in the journal.
+/// Returns the message about a sidecar of another sweep. `differences` describes how the identities in the sidecar and
+/// in the journal differ.
 pub fn foreign_sidecar(differences: &[String]) -> String {
     format!("its sidecar belongs to another sweep: {}", differences.join("; "))
 }

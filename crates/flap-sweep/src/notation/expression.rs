@@ -33,7 +33,7 @@ pub fn is_free_name(name: &str) -> bool {
         && name != evaluate::PI.0
 }
 
-/// Returns the positions of the bytes of the units in `text`, in which numbers may have units.
+/// Returns the positions of the bytes of the units after numbers in the expression `text`, up to the first mistake.
 pub fn units_in(text: &str) -> Vec<Range<usize>> {
     let mut tokens = Tokens::new(text, true);
     let mut found = Vec::new();

@@ -17,7 +17,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn even_ratios_over_a_decade_are_drawn_so() {
+    fn constant_ratios_over_a_decade_are_logarithmic() {
         assert!(is_log(&[1.0, 10.0, 100.0]));
         assert!(!is_log(&[1.0, 2.0, 4.0]));
         assert!(!is_log(&[1.0, 20.0, 39.0]));

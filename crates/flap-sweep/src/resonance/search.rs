@@ -1,11 +1,11 @@
 //! Search for the resonance of one design.
 //!
-//! Points on a grid over the range show the peaks. [`Maximum`] locates the highest peaks. Each probe begins at the
+//! Points on a grid over the range show the peaks. [`Maximum`] locates the highest peaks. Each point begins at the
 //! orbit of its nearest neighbour, which takes half the time of a start from rest.
 //!
 //! The row at a resonance belongs to the motion from rest, like every row of a sweep. If this motion differs from the
 //! motion that the search found at the same frequency, the design has more than one orbit. For a design with more than
-//! one orbit, the peaks are located again with all probes from rest.
+//! one orbit, the peaks are located again with all points from rest.
 
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status, Unfinished};
@@ -133,7 +133,8 @@ impl<'a> Search<'a> {
     /// Returns the peaks and all points that were run, after the search.
     ///
     /// # Errors
-    /// An error if the design is impossible, or has no range of frequencies to search.
+    /// An error if the design is impossible, if it has no range of frequencies to search, or if the quantity to maximise
+    /// is undefined at all frequencies.
     pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), Unfinished> {
         let ends = self.ends?;
         if self.tops.is_empty()

@@ -46,7 +46,7 @@ pub fn chunk(
 }
 
 impl Chunk {
-    /// Returns the chunk as a part of a larger plan that has the same points beginning at position `begin`.
+    /// Returns the chunk as a part of a larger plan. The points of the chunk begin at position `begin` of the larger plan.
     pub fn beginning_at(self, begin: u64) -> Chunk {
         Chunk { begin, ..self }
     }

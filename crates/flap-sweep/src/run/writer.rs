@@ -110,7 +110,8 @@ impl<'a> RowWriter<'a> {
         &self.plan
     }
 
-    /// Runs the points without rows, and the points that the refinement of the plan adds, and writes their rows.
+    /// Runs the points whose rows are not yet written, and the points that the refinement of the plan adds. Writes the
+    /// rows of all these points.
     ///
     /// `stops` is called before each batch of rows, with the progress at the latest batch. If `stops` returns true, the
     /// run stops, see [`Run::stop`](super::Run::stop).

@@ -46,9 +46,9 @@ def histogram(
         Percentages from 0 to 100. For each percentage, the picture has a line at the percentile. The default of
         `percentiles` is 5 %, 50 % and 95 %, as in ``flap plot``.
     where, **slices
-        The selection of rows, as for `response`. The picture has the designs at all values of the axes of a grid. A
-        grid can also combine a sample with an axis. If this axis is not selected, the picture has only the rows at the
-        middle value of the axis.
+        The selection of rows, as for `response`. Unlike `response`, the picture has the designs at all values of the
+        axes of a grid. A grid can also combine a sample with an axis. If this axis is not selected, the picture has
+        only the rows at the middle value of the axis.
     legend, ax
         The legend and the axes, as for `response`. The legend contains the mean and the standard deviation.
 

@@ -46,9 +46,9 @@ def scatter(
     cmap : str, optional
         A colour map of matplotlib for columns of numbers. The default of `cmap` is the colour map of `heatmap`.
     where, **slices
-        The selection of rows, as for `response`. The picture has the designs at all values of the axes of a grid. A
-        grid can also combine a sample with an axis. If this axis is not `x`, `y` or `color`, the picture has only the
-        rows at the middle value of the axis.
+        The selection of rows, as for `response`. Unlike `response`, the picture has the designs at all values of the
+        axes of a grid. A grid can also combine a sample with an axis. If this axis is not `x`, `y` or `color`, the
+        picture has only the rows at the middle value of the axis.
     legend, colorbar, ax
         The legend, the colour bar and the axes, as for `response`.
 

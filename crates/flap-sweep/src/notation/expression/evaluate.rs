@@ -113,8 +113,9 @@ pub(super) struct Operator {
     pub(super) sign: &'static str,
     /// Precedence.
     pub(super) binds: u8,
-    /// Kind of both operands, and kind of the result.
+    /// Kind of both operands.
     pub(super) takes: Kind,
+    /// Kind of the result.
     pub(super) gives: Kind,
     apply: fn(f64, f64) -> f64,
 }

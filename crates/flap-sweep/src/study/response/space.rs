@@ -15,7 +15,9 @@ pub(super) struct OrbitSpace<'a, const P: usize> {
     pub(super) design: &'a Point,
     /// Indices of the parameters.
     pub(super) parameters: [usize; P],
+    /// Units of the parameters (SI): a change by one unit is a distance of 1.
     pub(super) units: [f64; P],
+    /// Sizes of the state's components; 1 for a component that is always zero.
     pub(super) sizes: Vec<f64>,
     pub(super) solver: SolverSettings,
     backend: Backend,
