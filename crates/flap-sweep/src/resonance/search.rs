@@ -133,8 +133,8 @@ impl<'a> Search<'a> {
     /// Returns the peaks and all points that were run, after the search.
     ///
     /// # Errors
-    /// An error if the design is impossible, if it has no range of frequencies to search, or if the quantity to maximise
-    /// is undefined at all frequencies.
+    /// An error if the design is impossible, or has no range of frequencies to search. Also an error if the quantity to
+    /// maximise is undefined at all frequencies.
     pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), Unfinished> {
         let ends = self.ends?;
         if self.tops.is_empty()

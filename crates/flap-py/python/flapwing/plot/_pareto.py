@@ -51,7 +51,7 @@ def pareto(
         A colour map of matplotlib for columns of numbers. The default of `cmap` is the colour map of `heatmap`.
     where, **slices
         The selection of rows, as for `response`. Unlike `response`, the picture has the designs at all values of the
-        axes that are not selected, also if a grid combines a sample with an axis.
+        axes that are not selected. This also applies if a grid combines a sample with an axis.
     legend, colorbar, ax
         The legend, the colour bar and the axes, as for `response`.
 
