@@ -1,8 +1,9 @@
 //! Experiments on single points of a model: the implementation of [`Experiments`].
 //!
-//! A chirp is a drive whose frequency changes at a constant rate. A chirp is integrated as a chain of cycles. Each
-//! cycle begins at phase zero with the final frequency of the previous cycle. Each cycle is therefore measured like a
-//! drive period, and small phases avoid rounding errors.
+//! A chirp is a drive whose frequency changes at a constant rate. flap integrates a chirp one cycle of the
+//! drive after another. Each cycle of a chirp begins at the drive phase zero, with the final frequency of the
+//! previous cycle. The measures of a cycle are therefore computed as for a drive period. The phase stays
+//! small, so the rounding errors of the phase stay small too.
 
 use core::ops::ControlFlow;
 
@@ -32,8 +33,8 @@ impl<M: ExperimentModel<N>, const N: usize> Experiments for Runner<M, N> {
         on_scalars!(run, R => free_response::<M, R, N>(&self.model, run, request))
     }
 
-    /// Evaluates the forces at equally spaced times, from the first sample of the motion to the last, without
-    /// integration.
+    /// Computes the forces at equally spaced times, from the first to the last sample of the given motion. No
+    /// equation is integrated.
     fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
         let ImposedMotion { stroke, pitch, samples } = motion;
         let (duration, other) = (stroke.duration(), pitch.duration());
@@ -71,7 +72,7 @@ impl<M: ExperimentModel<N>, const N: usize> Experiments for Runner<M, N> {
     }
 }
 
-/// Returns the response to a chirp that begins at rest.
+/// Returns the response to a chirp. The wing is at rest when the chirp begins.
 fn chirp<M: ExperimentModel<N>, R: Scalar, const N: usize>(
     model: &M,
     run: &PointRun<'_>,
@@ -138,12 +139,13 @@ fn chirp<M: ExperimentModel<N>, R: Scalar, const N: usize>(
     Ok(ChirpResponse { envelope, motion: sampler.finish::<M, N>() })
 }
 
-/// Returns the measures that are meaningful even if the motion of a cycle is not periodic.
+/// Returns the measures of a signal except the first harmonic. The first harmonic is meaningful only for a
+/// periodic motion.
 fn measures(of_signal: &[Measure]) -> impl Iterator<Item = Measure> + '_ {
     of_signal.iter().copied().filter(|&measure| measure != Measure::First)
 }
 
-/// Returns the names of the envelope's columns.
+/// Returns the column names of the table that contains one row for each cycle of a chirp.
 fn envelope_columns<M: Model<N>, const N: usize>() -> Vec<String> {
     let mut columns = ["begin_s", "end_s", "frequency_hz"].map(str::to_owned).to_vec();
     for signal in M::Signals::TABLE {
@@ -155,7 +157,7 @@ fn envelope_columns<M: Model<N>, const N: usize>() -> Vec<String> {
     columns
 }
 
-/// Returns the motion after an impulse, during which the drive voltage stays constant.
+/// Returns the motion after an impulse on the stroke. The drive voltage is constant during this motion.
 fn free_response<M: ExperimentModel<N>, R: Scalar, const N: usize>(
     model: &M,
     run: &PointRun<'_>,
@@ -193,7 +195,8 @@ fn free_response<M: ExperimentModel<N>, R: Scalar, const N: usize>(
     Ok(motion)
 }
 
-/// Checks that the impulse is not zero, and that the duration and the number of intervals are more than zero.
+/// Checks that the impulse is finite and not zero, and that the duration and the number of intervals are more
+/// than zero.
 fn refuse_nonsense(request: &ImpulseRequest) -> Result<(), Invalid> {
     let ImpulseRequest { stroke_rate, duration, intervals } = *request;
     if !(stroke_rate.is_finite() && stroke_rate != 0.0) {

@@ -1,19 +1,21 @@
-//! Derivatives of the measures of a settled motion.
+//! Derivatives of the measures of a settled motion with respect to parameters.
 //!
-//! If the parameter p changes, the state y₀ at the beginning of the orbit's period changes too. It is a fixed point
-//! of the period's map, y₀ = Φ(p, y₀), so
+//! If the parameter p changes, the state y₀ at the beginning of the orbit's period changes too. The state y₀
+//! is a fixed point of the map Φ from the beginning of a period to its end, y₀ = Φ(p, y₀), so
 //!
 //! ```text
 //! dy₀/dp = (1 − M)⁻¹ ∂Φ/∂p   with the monodromy matrix M = ∂Φ/∂y₀
 //! dm/dp  = (m(p + δ, y₀ + δ dy₀/dp) − m(p − δ, y₀ − δ dy₀/dp)) / 2δ
 //! ```
 //!
-//! All periods repeat the steps of one period ([`replay`](crate::ode::replay)), so Φ and m are smooth and δ can be
-//! small.
+//! flap integrates the period several times with the same steps ([`replay`](crate::ode::replay)). The map Φ
+//! and the measure m are therefore smooth functions, and the change δ can be small.
 //!
-//! The two-sided differences follow the orbit. They stay exact where one of ∂m/∂y₀ has a kink, such as the largest
-//! magnitude of a symmetric motion. A kink along the orbit's own path is detected, because the two halves of the
-//! difference differ. For this test, extrema that are equal within the integration error are made exactly equal
+//! The two-sided difference dm/dp compares the orbit at p + δ with the orbit at p − δ. The difference dm/dp
+//! is therefore accurate even if m has a kink as a function of y₀ alone. An example of such a measure is the
+//! largest magnitude of a signal in a symmetric motion. If m has a kink as a function of p, the backward and
+//! the forward difference of m differ, and flap reports the kink. Before the comparison of these two
+//! differences, extrema that are equal within the integration error are made exactly equal
 //! ([`quarters`](crate::measure::quarters)).
 
 use nalgebra::{DMatrix, SMatrix, SVector};
@@ -33,61 +35,73 @@ use crate::ode::replay::{RecordedStep, Repeated, record, replay};
 use crate::ode::{Ending, Start};
 use crate::parameter::{Kind, Parameter};
 
-/// Change of the state in units of its typical size. Its square is negligible, and it is large compared with
-/// rounding.
+/// Change of a state for finite differences, in units of the state's typical size. The square of the change
+/// is negligible, and the change is large compared with rounding errors.
 const SMALL: f64 = 1e-8;
 
-/// Factor on the tolerances for the choice of steps. Near a resonance, derivatives of a period are much larger than
-/// its states, and so are their errors.
+/// Factor on the tolerances of the integration that chooses the steps for derivatives. Near a resonance, the
+/// derivatives of the states over a period are much larger than the states. The errors of these derivatives
+/// are then larger too.
 const TOLERANCE_FACTOR: f64 = 0.1;
 
-/// Largest `rtol` at which errors of derivatives are in proportion to errors of the measures. They decrease more
-/// slowly.
+/// Value of `rtol` below which the errors of derivatives decrease more slowly than the errors of the
+/// measures. Below this value, the factor on the tolerances for derivatives becomes smaller.
 const COARSE: f64 = 1e-6;
 
-/// Error of an extremum in units of the tolerance. Extrema that differ by less may be equal.
+/// Assumed relative error of an extremum of a signal, in units of the relative tolerance. Two extrema whose
+/// difference is smaller than this error may be equal.
 const EXTREMUM_ERROR: f64 = 100.0;
 
-/// Error of derivatives in units of the root of the tolerance, per relative change and relative to the measure.
+/// Assumed error of a derivative, in units of the square root of the relative tolerance. Here a derivative is
+/// the relative change of a measure per relative change of a quantity.
 ///
-/// If the derivatives of equal extrema differ by less, there is no kink.
+/// If the backward and the forward derivative of a measure with equal extrema differ by less than this error,
+/// the measure has no kink.
 const SLOPE_ERROR: f64 = 3.0;
 
-/// Largest component of (1 − M)⁻¹, in units of the states' typical sizes, at which derivatives are reported.
+/// Largest component of (1 − M)⁻¹ at which flap reports derivatives. M is the monodromy matrix in units of
+/// the states' typical sizes.
 ///
-/// Above it, the orbit is so close to a fold that derivatives would have errors of 1e-4 and more.
+/// If a component of (1 − M)⁻¹ is larger, the orbit is so close to a fold that derivatives would have errors
+/// of 1e-4 and more.
 const LARGEST_RESPONSE: f64 = 1e3;
 
-/// Component of (1 − M)⁻¹ above which the orbit is tested for a fold. There, the error of the orbit changes M
-/// noticeably.
+/// Component of (1 − M)⁻¹ above which flap tests if the orbit is close to a fold. Close to a fold, a small
+/// error of the orbit changes the monodromy matrix M noticeably.
 const LARGE_RESPONSE: f64 = 30.0;
 
-/// Largest relative change of (1 − M)⁻¹ by the error of the orbit.
+/// Largest relative change of (1 − M)⁻¹ that the error of the orbit may cause. If the change is larger, flap
+/// reports no derivatives.
 const DOUBT: f64 = 0.02;
 
-/// Largest relative difference of the two halves of a difference. For a smooth measure it is far smaller.
+/// Largest relative difference between the backward and the forward difference of a measure without a kink.
+/// For a smooth measure, the relative difference is far smaller than this limit.
 const SMOOTH: f64 = 1e-3;
 
 /// Relative rounding error of a measure.
 const ROUNDING: f64 = 1e-13;
 
-/// A change of a point along which derivatives are computed.
+/// A small change of the parameter values of a point. flap computes derivatives in the direction of this
+/// change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
-    /// One value per parameter, at the point changed by `+size`.
+    /// Parameter values after the change by `+size`, one for each parameter.
     pub ahead: Vec<f64>,
-    /// The same at `-size`; or the values of the point itself, for a one-sided difference where a negative change is
-    /// impossible.
+    /// Parameter values after the change by `-size`, one for each parameter. If a change by `-size` is
+    /// impossible, these are the values of the point itself, and flap computes a one-sided difference.
     pub behind: Vec<f64>,
-    /// Size of the change, in the unit of the derivatives: [`Change::SHARE`] of the quantity.
+    /// Size of the change, by which differences of a measure are divided. The recommended size is
+    /// [`Change::SHARE`] times the changed quantity, or [`Change::SHARE`] for relative changes.
     pub size: f64,
 }
 
 impl Change {
-    /// Recommended relative size of a change: its square is negligible, and it is large compared with rounding.
+    /// Recommended size of a change relative to the changed quantity. The square of this size is negligible,
+    /// and the size is large compared with rounding errors.
     pub const SHARE: f64 = 1e-8;
 
-    /// Returns true if the change is zero. NaN is a parameter that follows others.
+    /// Returns true if the change is zero. A value of NaN means that the parameter is computed from other
+    /// parameters.
     pub(crate) fn is_none(&self) -> bool {
         let mut both = self.ahead.iter().zip(&self.behind);
         both.all(|(ahead, behind)| ahead.total_cmp(behind).is_eq())
@@ -99,17 +113,20 @@ impl Change {
 pub enum NoSlope {
     /// The orbit is too close to a fold, where derivatives are unbounded.
     Fold,
-    /// The motion slides along its switching surface, or touches it.
+    /// The motion slides along the switching surface of the equations, or only touches this surface.
     Sliding,
-    /// A parameter is at the end of its range, or the changed point is impossible.
+    /// A parameter is at the end of its range, or the changed parameter values are impossible.
     Edge,
-    /// The quantity is zero, so a relative change is undefined, or the change has no effect.
+    /// The changed quantity is zero, so that a relative change is undefined, or the change has no effect on
+    /// the parameters.
     Zero,
-    /// The period cannot be integrated with tighter tolerances within the limit on steps.
+    /// With the tighter tolerances for derivatives, the integration of the period fails, for example because
+    /// of `max_steps`.
     Lost,
-    /// The measure has a kink: the derivatives on both sides differ, or their difference cannot be determined.
+    /// The measure has a kink: the backward and the forward derivative differ, or one of the two derivatives
+    /// is unknown.
     Kink,
-    /// The measure itself is missing, or its derivative is not computed.
+    /// The measure is missing, or flap computes no derivatives of this measure.
     Missing,
 }
 
@@ -125,7 +142,7 @@ impl NoSlope {
         NoSlope::Missing,
     ];
 
-    /// Returns the word for the reason in rows.
+    /// Returns the word that flap writes for this reason, such as `fold`.
     pub fn name(self) -> &'static str {
         match self {
             NoSlope::Fold => "fold",
@@ -139,16 +156,17 @@ impl NoSlope {
     }
 }
 
-/// Derivatives of the measures of a settled motion.
+/// Derivatives of the measures of a settled motion with respect to parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
     /// For each change, the derivative of each column of the model, in the column's unit per unit of the change.
     pub slopes: Vec<Vec<Result<f64, NoSlope>>>,
-    /// Number of right-hand sides evaluated.
+    /// Number of evaluations of the right-hand side.
     pub rhs_evals: u64,
 }
 
-/// Returns derivatives along `changes` of the orbit that begins at `state`.
+/// Returns the derivatives of the measures in the direction of each change in `changes`. The measures are the
+/// measures of the orbit that begins at `state`.
 pub(super) fn gradient<M: Model<N>, R: Scalar, const N: usize>(
     model: &M,
     run: &PointRun<'_>,
@@ -178,18 +196,19 @@ pub(super) fn gradient<M: Model<N>, R: Scalar, const N: usize>(
     if interrupted() { Err(Unfinished::Interrupted) } else { Ok(gradient) }
 }
 
-/// Returns the factor on the tolerances of a recorded period.
+/// Returns the factor on the tolerances of the first integration of the period, whose steps are recorded.
 fn tolerance_factor(rtol: f64) -> f64 {
     TOLERANCE_FACTOR * (rtol / COARSE).min(1.0).sqrt()
 }
 
-/// Constants and drive period of a changed point.
+/// Constants of the model and drive period (s) for changed parameter values.
 type Side<C> = (C, f64);
 
-/// Points on both sides of a point along a change; `None` if one of them is impossible or has other choices.
+/// Constants and drive periods after a change by `+size` and by `-size`. `None` if changed values are
+/// impossible or select another option than the point.
 type Sides<C> = Option<[Side<C>; 2]>;
 
-/// Returns the points on both sides of a point.
+/// Returns the constants and the drive periods after a change by `+size` and by `-size`.
 fn sides<M: Model<N>, const N: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -204,13 +223,14 @@ fn sides<M: Model<N>, const N: usize>(
     Some([side(&change.ahead)?, side(&change.behind)?])
 }
 
-/// First state of an orbit, and its derivatives in units of the states' typical sizes.
+/// Initial state of an orbit, and the derivatives of this state in units of the states' typical sizes.
 struct Moves<const N: usize> {
     y: [f64; N],
     along: Vec<SVector<f64, N>>,
 }
 
-/// Returns true if all numbers are in the ranges of their parameters. NaN is a number that follows others.
+/// Returns true if the value of each numeric parameter is in its allowed range. A value of NaN means that the
+/// parameter is computed from other parameters.
 fn in_range(parameters: &[Parameter], values: &[f64]) -> bool {
     parameters.iter().zip(values).all(|(parameter, value)| match parameter.kind {
         Kind::Number(range) | Kind::Following(range, _) => value.is_nan() || range.contains(*value),
@@ -218,7 +238,8 @@ fn in_range(parameters: &[Parameter], values: &[f64]) -> bool {
     })
 }
 
-/// The computation of derivatives from a period of an orbit, which is repeated with changes.
+/// The computation of derivatives. A period of the orbit is integrated several times, with small changes of
+/// the initial state and of the parameters.
 struct GradientKernel<'a, M: Model<N>, const N: usize> {
     model: &'a M,
     solver: &'a SolverSettings,
@@ -258,7 +279,8 @@ impl<M: Model<N>, const N: usize> Kernel for GradientKernel<'_, M, N> {
 }
 
 impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
-    /// Returns the starts of the period, of periods from changed states, and of periods with changed quantities.
+    /// Returns the start of the unchanged period, starts with changed initial states, and starts with changed
+    /// parameter values.
     fn for_responses(&self) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = self.around(self.start.y);
         for side in &self.sides {
@@ -268,7 +290,8 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         starts
     }
 
-    /// Returns the start of a period from a state, and starts from states that differ from it in one component.
+    /// Returns the start of a period at the state `y`, and one further start for each component, in which
+    /// only this component of `y` is changed.
     fn around(&self, y: [f64; N]) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = vec![Start { y, ..*self.start }; N + 1];
         for i in 0..N {
@@ -277,9 +300,10 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         starts
     }
 
-    /// Returns (1 − M)⁻¹ in units of the scales, from the ends of the periods [`around`](Self::around) a state.
+    /// Returns (1 − M)⁻¹ in units of the states' typical sizes. The monodromy matrix M is computed from
+    /// `ends`, the results of the periods that begin [`around`](Self::around) a state.
     ///
-    /// `None` near a fold and beyond it, where a multiplier is above 1.
+    /// `None` if the orbit is near a fold or beyond a fold. Beyond a fold, a Floquet multiplier is above 1.
     fn response(&self, ends: &[Repeated<(), N>]) -> Option<SMatrix<f64, N, N>> {
         let monodromy =
             SMatrix::<f64, N, N>::from_fn(|i, j| self.difference(&ends[0], &ends[j + 1], SMALL)[i]);
@@ -289,21 +313,23 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         (determinant > 0.0 && response.amax() <= LARGEST_RESPONSE).then_some(response)
     }
 
-    /// Returns the difference of two final states per `size`, in units of the scales.
+    /// Returns the difference of two final states in units of the states' typical sizes, divided by `size`.
     fn difference(&self, one: &Repeated<(), N>, other: &Repeated<(), N>, size: f64) -> SVector<f64, N> {
         SVector::from_fn(|i, _| (other.y[i] - one.y[i]) / (size * self.start.scale[i]))
     }
 
-    /// Returns Newton's step, in units of the scales, from a period with this end.
+    /// Returns the step of Newton's method, in units of the states' typical sizes. `end` is the end of the
+    /// period from the current initial state.
     fn step(&self, response: &SMatrix<f64, N, N>, end: &Repeated<(), N>) -> SVector<f64, N> {
         let (y, scale) = (&self.start.y, &self.start.scale);
         response * SVector::<f64, N>::from_fn(|i, _| (end.y[i] - y[i]) / scale[i])
     }
 
-    /// Returns periods around a state that may be as accurate as the orbit of the search.
+    /// Returns starts of periods around a second state, which may be as close to the exact orbit as the state
+    /// that the search found.
     ///
-    /// It is one Newton step away from it, plus the largest distance by which an error of one tolerance per period
-    /// moves an orbit.
+    /// The second state is the sum of the state from the search, one Newton step, and an error. The error is
+    /// the largest distance by which an error of one tolerance per period moves an orbit.
     fn in_doubt(
         &self,
         response: &SMatrix<f64, N, N>,
@@ -318,9 +344,10 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         self.around(core::array::from_fn(|i| moved[i].mul_add(self.start.scale[i], self.start.y[i])))
     }
 
-    /// Returns the orbit's first state, after one Newton step, and its derivatives along each change.
+    /// Returns the initial state of the orbit after one Newton step, and the derivatives of this state in the
+    /// direction of each change.
     ///
-    /// The derivatives are in units of the scales: (1 − M)⁻¹ ∂Φ/∂p.
+    /// The derivatives (1 − M)⁻¹ ∂Φ/∂p are in units of the states' typical sizes.
     fn moves(&self, response: &SMatrix<f64, N, N>, ends: &[Repeated<(), N>]) -> Moves<N> {
         let step = self.step(response, &ends[0]);
         let y = core::array::from_fn(|i| self.start.y[i] + step[i] * self.start.scale[i]);
@@ -330,7 +357,8 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         Moves { y, along }
     }
 
-    /// Returns the starts of the orbit and of the orbits on both sides of it along each change.
+    /// Returns the start of the orbit, and for each change the starts of the orbits after a change by `+size`
+    /// and by `-size`.
     fn along(&self, moves: &Moves<N>) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = vec![Start { y: moves.y, ..*self.start }];
         for ((side, change), moved) in self.sides.iter().zip(self.changes).zip(&moves.along) {
@@ -345,7 +373,8 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         starts
     }
 
-    /// Returns the derivatives of the measures.
+    /// Returns the derivative of each measure in the direction of each change, or the reason why this
+    /// derivative is missing.
     fn slopes(
         &self,
         starts: &[Start<M::Constants<f64>, N>],
@@ -394,7 +423,7 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         slopes.collect()
     }
 
-    /// Returns the number of right-hand sides of `periods` periods on the recorded steps.
+    /// Returns the number of evaluations of the right-hand side in `periods` periods with the recorded steps.
     fn rhs_evals(&self, periods: usize) -> u64 {
         let steps =
             self.recording.len() + 2 * self.recording.iter().filter(|recorded| recorded.lands).count();
@@ -413,7 +442,7 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         measured.collect()
     }
 
-    /// Returns a gradient without derivatives, for this reason.
+    /// Returns a gradient in which all derivatives are missing for the given reason.
     fn without(&self, reason: NoSlope) -> Gradient {
         let signals: usize = M::Signals::TABLE.iter().map(|signal| signal.measures.len()).sum();
         let columns = signals + M::DERIVED.len() + if self.solver.loads { 6 } else { 0 };
@@ -421,10 +450,11 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
     }
 }
 
-/// Returns the sizes of the columns, to which rounding errors are relative.
+/// Returns a typical size of the values of each column. The rounding error of a column is a fraction of this
+/// size.
 ///
-/// The rounding error of a small mean depends on the size of its signal. The rounding error of a component of a force
-/// or moment depends on the other components.
+/// The rounding error of a small mean depends on the size of the signal. The rounding error of a component of
+/// a force or moment depends on the largest component.
 fn sizes<M: Model<N>, const N: usize>(
     solver: &SolverSettings,
     totals: &Sums<M::Signals, f64>,
@@ -446,7 +476,7 @@ fn sizes<M: Model<N>, const N: usize>(
     sizes
 }
 
-/// Differences of a measure behind and ahead of a point.
+/// Backward and forward difference of a measure at a point.
 #[derive(Clone, Copy)]
 pub(super) struct Halves {
     backward: f64,
@@ -458,28 +488,31 @@ impl Halves {
         Halves { backward: here - behind, forward: ahead - here }
     }
 
-    /// Returns true if both differences are known and equal, within a relative tolerance plus `tolerance`.
+    /// Returns true if the backward and the forward difference are known and nearly equal. Nearly equal means
+    /// equal within a relative tolerance plus the absolute `tolerance`.
     fn agree(self, tolerance: f64) -> bool {
         let Halves { backward, forward } = self;
         (forward - backward).abs() <= SMOOTH * forward.abs().max(backward.abs()) + tolerance
     }
 
-    /// Returns the derivative of a measure of size `of`.
+    /// Returns the derivative of a measure. `of` is a typical size of the measure, and `size` is the size of
+    /// the change.
     pub(super) fn slope(self, of: f64, size: f64) -> Result<f64, NoSlope> {
         let known = self.agree(ROUNDING * of);
         if known { Ok((self.backward + self.forward) / (2.0 * size)) } else { Err(NoSlope::Kink) }
     }
 
-    /// Returns true if a measure with equalised extrema has a kink.
+    /// Returns true if a measure has a kink. The measure must be computed from extrema that were made exactly
+    /// equal.
     ///
-    /// The derivatives on both sides then differ by more than their `error`, per relative change and relative to the
-    /// measure.
+    /// A measure has a kink if the backward and the forward derivative differ by more than `error`. These
+    /// derivatives are relative to the size `of` of the measure, per relative change.
     pub(super) fn has_corner(self, of: f64, error: f64) -> bool {
         !self.agree((error * Change::SHARE + ROUNDING) * of)
     }
 }
 
-/// Returns the derivative of a measure from its values at a point and ahead of it.
+/// Returns the derivative of a measure from its value at a point and its value after the change by `+size`.
 pub(super) fn forward(here: f64, ahead: f64, size: f64) -> Result<f64, NoSlope> {
     if ahead.is_nan() { Err(NoSlope::Kink) } else { Ok((ahead - here) / size) }
 }

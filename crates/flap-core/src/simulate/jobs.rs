@@ -1,4 +1,4 @@
-//! Design points as input of the lanes, and rows as output.
+//! Design points as input of simulations, and rows as output.
 
 use super::row::Row;
 use crate::ode::ensemble::Occupancy;
@@ -6,15 +6,16 @@ use crate::ode::ensemble::Occupancy;
 /// One design point: an index, and one value per parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// Index that [`Jobs::done`] reports with the row of this point.
+    /// Index that [`Jobs::done`] receives together with the row of this point.
     ///
-    /// The caller chooses it: the index in the plan for a sweep, the position in the list for
-    /// [`run_list`](super::run_list). It does not affect results.
+    /// The source of the points chooses the index. A sweep uses the index of the point in the plan, and
+    /// [`run_list`](super::run_list) uses the position of the point in the list. The index does not affect
+    /// results.
     pub index: u64,
     /// One value per parameter of the model.
     pub values: Vec<f64>,
-    /// State at the beginning of a drive period from which the motion is followed, such as [`Row::state`] of a
-    /// neighbouring point; `None` for rest.
+    /// State in which the motion begins, at the beginning of a drive period. An example is [`Row::state`] of
+    /// a neighbouring point. `None` means that the motion begins at rest.
     pub begin: Option<Vec<f64>>,
 }
 
@@ -25,18 +26,19 @@ impl Point {
     }
 }
 
-/// Source of points and receiver of their rows.
+/// Source of design points, and receiver of the rows that are computed for these points.
 pub trait Jobs {
-    /// Returns the next point, or `None` if there is none at present.
+    /// Returns the next point to compute, or `None` if no point is available at present.
     ///
-    /// If `idle` is true, nothing else is running: the call may wait, and `None` ends the run.
+    /// If `idle` is true, no other point is being computed. The call may then wait for the next point, and
+    /// `None` ends the run.
     fn next(&mut self, idle: bool) -> Option<Point>;
 
     /// Receives the row of the point with this [`Point::index`].
     fn done(&mut self, index: u64, row: Row);
 
-    /// Returns true to end the run at once. Points without a row then get none, and `next` must return `None`. See
-    /// [`Interrupt`](super::Interrupt).
+    /// Returns true if the run must end at once. Unfinished points then receive no row, and [`Jobs::next`]
+    /// must return `None`. See [`Interrupt`](super::Interrupt).
     fn interrupted(&self) -> bool {
         false
     }
@@ -47,12 +49,12 @@ pub trait Jobs {
     }
 }
 
-/// Use of the lanes of all ensembles.
+/// Numbers of steps that show how many SIMD lanes were in use, for each kind of drive period.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LaneUse {
-    /// Periods of the states alone: marching and chord steps.
+    /// Periods in which only the states are integrated: the march and chord steps.
     pub marching: Occupancy,
-    /// Periods with responses to changes of the state.
+    /// Periods in which the states and their derivatives with respect to the initial state are integrated.
     pub varying: Occupancy,
     /// Measured periods.
     pub measuring: Occupancy,

@@ -1,22 +1,24 @@
-//! Small linear systems of period maps, solved without allocation.
+//! Solution of the small linear systems of Newton's method for periodic orbits, without memory allocation.
 
 use crate::measure::multipliers::{Matrix, identity};
 
-/// Largest condition number of a system. Above it, the solution may have no correct digit.
+/// Largest allowed condition number of a linear system. With a larger condition number, the solution may have
+/// no correct digit.
 const MAX_CONDITION: f64 = 1e15;
 
 /// LU decomposition of a matrix with row pivoting.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lu<const N: usize> {
-    /// U, and L below its diagonal of ones.
+    /// The factor U, and below its diagonal the factor L. The diagonal of L consists of ones and is not
+    /// stored.
     factors: Matrix<N>,
-    /// Row of the matrix for each row of the factors.
+    /// For each row of the factors, the index of the corresponding row of the original matrix.
     rows: [usize; N],
 }
 
 impl<const N: usize> Lu<N> {
-    /// Returns the decomposition of I − M for a monodromy matrix M; `None` if it is singular to rounding or not
-    /// finite.
+    /// Returns the LU decomposition of I − M for a monodromy matrix M. `None` if I − M is singular within
+    /// rounding errors or not finite.
     pub(super) fn of_identity_minus(m: &Matrix<N>) -> Option<Lu<N>> {
         let mut matrix = identity();
         for i in 0..N {
@@ -45,7 +47,7 @@ impl<const N: usize> Lu<N> {
         Lu { factors: a, rows }
     }
 
-    /// Returns the solution x of the system with the right-hand side b.
+    /// Returns the solution x of the linear system A x = b, where A is the decomposed matrix.
     pub(super) fn solve(&self, b: &[f64; N]) -> [f64; N] {
         let Lu { factors, rows } = self;
         let mut x = rows.map(|row| b[row]);
@@ -63,14 +65,15 @@ impl<const N: usize> Lu<N> {
         x
     }
 
-    /// Returns the inverse, in row-major order.
+    /// Returns the inverse of the decomposed matrix, in row-major order.
     pub(super) fn inverse(&self) -> Matrix<N> {
         let columns = identity().map(|unit| self.solve(&unit));
         core::array::from_fn(|i| core::array::from_fn(|j| columns[j][i]))
     }
 }
 
-/// Returns the largest sum of the magnitudes of a row.
+/// Returns the row-sum norm of a matrix: for each row the magnitudes are added, and the largest sum is the
+/// norm.
 fn row_sum<const N: usize>(matrix: &Matrix<N>) -> f64 {
     let sums = matrix.map(|row| row.iter().map(|x| x.abs()).sum::<f64>());
     sums.into_iter().fold(0.0, |largest, sum| if sum.is_nan() { sum } else { sum.max(largest) })

@@ -1,29 +1,33 @@
 //! The march of a point: it integrates one drive period after another.
 //!
-//! It ends when the motion has settled, may be close to an orbit, or has taken too many periods.
+//! The march ends when the motion has settled or may be close to an orbit, or after the largest allowed
+//! number of periods.
 
 use super::settings::SolverSettings;
 use crate::measure::strobe::Strobe;
 
-/// Number of marched periods from rest before the first Newton iteration.
+/// Number of drive periods that are integrated from rest before Newton's iteration is tried for the first
+/// time.
 const FIRST_TRY: u32 = 6;
 
-/// Number of marched periods before the first Newton iteration from a state that may be close to an orbit.
+/// Number of drive periods before Newton's iteration is tried for the first time, if the initial state may be
+/// close to an orbit.
 const FIRST_TRY_NEARBY: u32 = 1;
 
-/// Largest change of the state over a period at which Newton's iteration is tried, in units of the states' typical
-/// sizes.
+/// Newton's iteration is tried only if the state changes by at most this amount over a period, in units of
+/// the states' typical sizes.
 const NEAR: f64 = 0.3;
 
-/// Number of marched periods before the first check of the motion's size.
+/// Number of marched drive periods after which flap checks if the motion is small.
 const SIZED: u32 = 2;
 
-/// Fraction of its typical size below which a state counts as small.
+/// A state counts as small if its largest magnitude is below this fraction of its typical size.
 ///
-/// Its absolute tolerance is then a multiple of its actual size.
+/// The absolute tolerance of a small state is a multiple of the actual size of the state.
 const SMALL: f64 = 0.1;
 
-/// Smallest size of a state for its tolerance, relative to the largest state of the motion.
+/// Smallest size of a state in the computation of its absolute tolerance, relative to the largest state of
+/// the motion.
 const NEGLIGIBLE: f64 = 1e-6;
 
 /// The march of a point.
@@ -37,12 +41,14 @@ pub(super) struct March<const N: usize> {
     /// Length in drive periods of the orbit on which the march has settled.
     period: Option<u32>,
     max_cycles: u32,
-    /// Number of marched periods before the next Newton iteration; `None` if there is none.
+    /// Number of marched drive periods at which Newton's iteration is tried next. `None` if Newton's
+    /// iteration is not used.
     next_try: Option<u32>,
 }
 
 impl<const N: usize> March<N> {
-    /// Returns a march of at most `max_cycles` periods from `y`. `nearby` means that `y` may be close to the orbit.
+    /// Returns a march that begins at the state `y` and has at most `max_cycles` drive periods. If `nearby`
+    /// is true, `y` may be close to the orbit.
     pub(super) fn new(
         y: &[f64; N],
         scale: &[f64; N],
@@ -60,7 +66,7 @@ impl<const N: usize> March<N> {
         }
     }
 
-    /// Adds the state at the end of a period, and the largest magnitude of each state in it.
+    /// Adds the state at the end of a period, and the largest magnitude that each state has reached.
     pub(super) fn period_end(&mut self, y: &[f64; N], largest: &[f64; N]) {
         for i in 0..N {
             self.largest[i] = self.largest[i].max(largest[i]);
@@ -73,13 +79,15 @@ impl<const N: usize> March<N> {
         self.period
     }
 
-    /// Returns true if the motion is far smaller than the sizes `assumed` for its tolerances.
+    /// Returns true if a state is far smaller than its size in `assumed`, from which its tolerance was
+    /// computed. The result is true only after [`SIZED`] periods.
     pub(super) fn is_oversized(&self, assumed: &[f64; N]) -> bool {
         let size = self.motion_size();
         self.strobe.cycles() == SIZED && (0..N).any(|i| size[i] < 0.5 * assumed[i])
     }
 
-    /// Returns the sizes of the states in this motion: the typical sizes, except for states that stay small.
+    /// Returns the size of each state for its absolute tolerance. This size is the typical size, or less if
+    /// the state stays small.
     pub(super) fn motion_size(&self) -> [f64; N] {
         let relative: [f64; N] = core::array::from_fn(|i| self.largest[i] / self.scale[i]);
         let overall = relative.iter().fold(0.0_f64, |size, &one| size.max(one));
@@ -98,12 +106,12 @@ impl<const N: usize> March<N> {
         self.next_try.is_some_and(|next| self.strobe.cycles() >= next) && self.strobe.change(1) <= NEAR
     }
 
-    /// Returns true if the march has reached its largest number of periods.
+    /// Returns true if the march has integrated the largest allowed number of periods.
     pub(super) fn is_exhausted(&self) -> bool {
         self.strobe.cycles() >= self.max_cycles
     }
 
-    /// Postpones the next Newton iteration until the march is twice as long.
+    /// Postpones the next attempt of Newton's iteration until the march has twice as many periods as now.
     pub(super) fn put_off_newton(&mut self) {
         self.next_try = Some(2 * self.strobe.cycles());
     }
@@ -123,13 +131,15 @@ impl<const N: usize> March<N> {
         self.strobe.cycles()
     }
 
-    /// Returns the change of the state over the last `periods` drive periods; NaN before that many have passed.
+    /// Returns the change of the state over the last `periods` drive periods. NaN if the march has fewer
+    /// drive periods.
     pub(super) fn change(&self, periods: u32) -> f64 {
         self.strobe.change(periods)
     }
 }
 
-/// Returns the factor on absolute tolerances for an orbit through the state `y`, which may be small.
+/// Returns the factor on the absolute tolerances for an orbit through the state `y`. The factor is less than
+/// 1 if all components of `y` are small.
 pub(super) fn share_of_tolerance<const N: usize>(y: &[f64; N], scale: &[f64; N]) -> f64 {
     let overall = (0..N).fold(0.0_f64, |size, i| size.max(y[i].abs() / scale[i]));
     if overall == 0.0 { 1.0 } else { (overall / SMALL).min(1.0) }

@@ -1,8 +1,9 @@
-//! Design points as input, rows as output: the interface of models for sweeps, the command line and Python.
+//! The interface through which sweeps, the command line and Python use models. The input consists of design
+//! points, and the output consists of rows.
 //!
-//! A sweep uses the trait [`Simulator`] of a model. Derivatives of rows use [`Gradients`], and single motions use
-//! [`Motions`] and [`Experiments`]. [`Runner`] implements these traits for a [`Model`](crate::model::Model). [`all`]
-//! lists the models of this crate.
+//! A sweep uses the trait [`Simulator`] of a model. The trait [`Gradients`] computes derivatives of rows, and
+//! the traits [`Motions`] and [`Experiments`] compute single motions. [`Runner`] implements these traits for
+//! a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
 
 mod experiments;
 mod gradient;
@@ -50,7 +51,7 @@ static DIRECT_DRIVE: Runner<DirectDrive, 4> = Runner::with_experiments(DirectDri
 static FOUR_BAR: Runner<FourBar, 4> = Runner::with_experiments(FourBar::SINE);
 static ALL: &[&dyn Simulator] = &[&BIMORPH, &DIRECT_DRIVE, &FOUR_BAR];
 
-/// Returns every model, in the order of `flap models`.
+/// Returns all models of this crate, in the order in which `flap models` lists the models.
 pub fn all() -> &'static [&'static dyn Simulator] {
     ALL
 }
@@ -60,7 +61,7 @@ pub fn by_name(name: &str) -> Option<&'static dyn Simulator> {
     find(all(), name)
 }
 
-/// Returns the preset of this crate with this name, and its model.
+/// Returns the preset of this crate with this name, and the model of the preset.
 pub fn preset(name: &str) -> Option<(&'static dyn Simulator, &'static Preset)> {
     find_preset(all(), name)
 }
@@ -70,7 +71,7 @@ pub fn find(models: &[&'static dyn Simulator], name: &str) -> Option<&'static dy
     models.iter().copied().find(|model| model.name() == name)
 }
 
-/// Returns the preset with this name among the presets of `models`, and its model.
+/// Returns the preset with this name among the presets of `models`, and the model of the preset.
 pub fn find_preset(
     models: &[&'static dyn Simulator],
     name: &str,

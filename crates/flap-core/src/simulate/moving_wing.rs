@@ -1,13 +1,14 @@
-//! A wing whose shoulder moves in any way: its equations and its load at an instant.
+//! Equations of a wing whose shoulder moves in any way, and the load on this wing at an instant.
 
 use crate::body::BodyMotion;
 use crate::model::{Instant, Model};
 use crate::ode::Start;
 use crate::parameter::Invalid;
 
-/// The equations of a wing's motion with given values of its parameters, for any motion of its shoulder.
+/// Equations of motion of a wing with given parameter values, for any motion of the wing's shoulder.
 ///
-/// The equations are those for a shoulder with constant velocity and rates. Its acceleration has no effect.
+/// At each instant, the equations assume that the velocity and the rates of the shoulder are constant. The
+/// acceleration of the shoulder therefore has no effect.
 pub trait MovingWing {
     /// Returns the drive period (s). A period begins at time zero, with the phase zero of the drive.
     fn period(&self) -> f64;
@@ -15,14 +16,15 @@ pub trait MovingWing {
     /// Returns the typical size of each state.
     fn scale(&self) -> &[f64];
 
-    /// Computes the derivative of the state `y` at time `t` (s), for this motion of the shoulder.
+    /// Computes the derivative `dy` of the state `y` at time `t` (s), for the given `motion` of the shoulder.
     ///
-    /// Returns force (N) and moment (N·m) at the shoulder, see [`Load::at_shoulder`](crate::model::Load::at_shoulder).
-    /// `y` and `dy` have one number for each state. The side of the switching surface is the sign of
-    /// [`Ode::switch`](crate::ode::Ode::switch).
+    /// Returns the force (N) and the moment (N·m) of the air at the shoulder, see
+    /// [`Load::at_shoulder`](crate::model::Load::at_shoulder). `y` and `dy` have one number for each state.
+    /// If the model has a switching surface, the sign of [`Ode::switch`](crate::ode::Ode::switch) determines
+    /// the side of the surface.
     ///
     /// # Panics
-    /// If `y` or `dy` has another length.
+    /// Panics if `y` or `dy` does not have one number for each state.
     fn derivative(&self, t: f64, y: &[f64], motion: BodyMotion<f64>, dy: &mut [f64]) -> [f64; 6];
 }
 
@@ -32,8 +34,8 @@ struct Wing<M: Model<N>, const N: usize> {
     start: Start<M::Constants<f64>, N>,
 }
 
-/// Returns the wing with these values. Its equations contain the terms of the motion in `values`, which must not be
-/// zero.
+/// Returns a wing with the given parameter values. The motion of the body in `values` must not be zero,
+/// because it determines which terms of body motion the equations contain.
 pub(super) fn moving_wing<M: Model<N>, const N: usize>(
     model: &M,
     values: &[f64],

@@ -1,8 +1,9 @@
-//! The row of an orbit from its measured period, and its error estimate.
+//! The row of an orbit, and the error estimate of the row.
 //!
-//! An orbit is measured at two tolerances: of the row, and the middle tolerance of the search, which is larger by a
-//! factor of 64. The error of the method is about proportional to the tolerance. The expected error is therefore
-//! about a sixty-fourth of the difference. A single difference may be small by chance, so the estimate is 0.6 of it.
+//! flap computes the measures of an orbit at two tolerances: the tolerance of the row, and a middle
+//! tolerance, which is 64 times as large. The error of the integration is about proportional to the
+//! tolerance. The expected error of the row is therefore about 1/64 of the difference between the two
+//! results. This difference may be small by chance, so the error estimate is 0.6 times the difference.
 
 use super::row::{Row, Status};
 use super::settings::SolverSettings;
@@ -10,40 +11,42 @@ use crate::measure::cycle::{SumsOf, finish};
 use crate::model::{Model, Principal, SignalCycle, SignalSet, SignalsOf};
 use crate::ode::{Start, input, slope};
 
-/// Largest change per period of a motion that counts as rest, relative to its largest state.
+/// A motion counts as rest if no state changes per period by more than this fraction of the largest state.
 const REST: f64 = 1e-11;
 
-/// Smallest range of a signal that certainly oscillates, relative to the signal's size.
+/// A signal certainly oscillates if its range is larger than this fraction of the signal's size.
 const SWINGS: f64 = 1e-6;
 
-/// Times at which the equations are checked for rest, as fractions of the drive period. A drive of few harmonics is
-/// not zero at all of them.
+/// Times at which flap checks if the wing is at rest, as fractions of the drive period. A drive with few
+/// harmonics is nonzero at one or more of these times.
 const REST_TIMES: [f64; 4] = [0.0, 0.137, 0.412, 0.789];
 
-/// Fraction of the difference between the two orbits that is the error estimate.
+/// Error estimate of a measure, divided by the difference between its values at the middle tolerance and at
+/// the row's tolerance.
 const SHARE: f64 = 0.6;
 
-/// Fraction of its signal's size below which a measure is negligible. Its error is then relative to this fraction of
-/// the size.
+/// A measure is negligible if it is smaller than this fraction of its signal's size. The error of a
+/// negligible measure is relative to this fraction of the signal's size.
 const NOTHING: f64 = 1e-3;
 
-/// Smallest error estimate of a row, in units of the relative tolerance. It covers the error of extrema between the
-/// ends of steps.
+/// Smallest error estimate of a row, in units of the relative tolerance. This minimum covers the error of
+/// extrema that lie between the ends of two steps.
 const LEAST: f64 = 5.0;
 
-/// Number of crossings of the switching surface in a period above which the motion counts as sliding along the
-/// surface.
+/// If a motion crosses the switching surface more often than this in a period, the motion counts as sliding
+/// along the surface.
 ///
-/// Other motions cross it twice, or a few times more. The error of a sliding motion does not decrease with the
-/// method's order.
+/// A motion that does not slide crosses the switching surface twice in a period, or a few times more. When
+/// the tolerance decreases, the error of a sliding motion does not decrease with the order of the integration
+/// method.
 pub(super) const MANY_SWITCHES: u64 = 16;
 
 /// The measured period of an orbit.
 pub(super) struct MeasuredOrbit<'a, T, const N: usize> {
-    /// State at its beginning.
+    /// State at the beginning of the period.
     pub(super) y: &'a [f64; N],
     pub(super) sums: &'a T,
-    /// Sums over the orbit of the middle tolerances, if known.
+    /// Sums over the orbit that was found at the middle tolerances, if this orbit is known.
     pub(super) middle: Option<&'a T>,
     /// Number of crossings of the switching surface.
     pub(super) switches: u64,
@@ -51,7 +54,8 @@ pub(super) struct MeasuredOrbit<'a, T, const N: usize> {
     pub(super) rtol: f64,
 }
 
-/// Returns the row of an orbit without its costs, and the largest of its errors that finer tolerances would reduce.
+/// Returns the row of an orbit, and the largest error of the row that smaller tolerances would reduce. The
+/// caller adds the costs of the computation, such as the number of drive periods.
 pub(super) fn row_of<M: Model<N>, const N: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -75,7 +79,8 @@ pub(super) fn row_of<M: Model<N>, const N: usize>(
     (Row { measures, error_estimate: estimate, period: 1, ..Row::empty(Status::Periodic) }, doubt)
 }
 
-/// Returns true if the orbit is a rest: no signal oscillates, and the states do not move except for rounding.
+/// Returns true if the wing is at rest on this orbit: no signal oscillates, and the states change only by
+/// rounding errors.
 pub(super) fn is_at_rest<M: Model<N>, const N: usize>(
     model: &M,
     start: &Start<M::Constants<f64>, N>,
@@ -99,7 +104,7 @@ pub(super) fn measures<M: Model<N>, const N: usize>(
     measures
 }
 
-/// Returns the signals of a periodic cycle.
+/// Returns the mean, the extrema and similar quantities of each signal over a periodic cycle.
 fn on_orbit<M: Model<N>, const N: usize>(
     totals: &SumsOf<M, N>,
     period: f64,
@@ -109,7 +114,7 @@ fn on_orbit<M: Model<N>, const N: usize>(
     cycle
 }
 
-/// Returns the values of the columns, from the signals of a periodic cycle.
+/// Returns the values of the columns, which are computed from the `cycle` of each signal.
 fn values<M: Model<N>, const N: usize>(
     model: &M,
     c: &M::Constants<f64>,
@@ -127,8 +132,8 @@ fn values<M: Model<N>, const N: usize>(
 
 /// Returns the largest relative difference of the model's principal measures between two orbits.
 ///
-/// Principal measures are for example stroke, pitch, lift and power. If a measure is negligible relative to its
-/// signal, its difference is relative to a fraction of the signal's size.
+/// Principal measures are for example stroke, pitch, lift and power. If a measure is negligible compared with
+/// its signal, the difference of the measure is divided by a fraction of the signal's size.
 fn difference<M: Model<N>, const N: usize>(
     fine: &SignalsOf<M::Signals, SignalCycle>,
     middle: &SignalsOf<M::Signals, SignalCycle>,
@@ -146,18 +151,19 @@ fn difference<M: Model<N>, const N: usize>(
     largest
 }
 
-/// Returns true if a signal with a principal first harmonic oscillates. The motion is then not at rest, and its
-/// states need no check.
+/// Returns true if a signal oscillates whose first harmonic is a principal measure. The motion is then not at
+/// rest, and no check of the states is needed.
 fn swings<M: Model<N>, const N: usize>(cycle: &SignalsOf<M::Signals, SignalCycle>) -> bool {
     M::Signals::each(cycle).any(|(signal, cycle)| {
         signal.principal == Some(Principal::First) && cycle.max - cycle.min > SWINGS * cycle.size()
     })
 }
 
-/// Returns true if a motion from the state `y` is at rest, except for rounding.
+/// Returns true if the state `y` is a state of rest, except for rounding errors.
 ///
-/// The test covers several times of the drive period. At each of them, no state may change in a period by more than a
-/// tiny fraction of the largest state. States count in units of their typical sizes.
+/// The rates of all states are computed at several times of the drive period. The largest rate, multiplied by
+/// the period, must be at most a tiny fraction of the largest state. The unit of each state is its typical
+/// size.
 fn is_still<M: Model<N>, const N: usize>(
     model: &M,
     start: &Start<M::Constants<f64>, N>,

@@ -1,48 +1,48 @@
 //! The map from the state at the beginning of a drive period to the state at its end, near a fixed point.
 //!
-//! In the search for a symmetric orbit, the map leads from the beginning to the middle of a period and mirrors the
-//! state there. The map of the period is the square of this map and has the same fixed point.
+//! In the search for a symmetric orbit, the result of the map is the mirrored state in the middle of the
+//! period. The map of a whole period applies this half-period map twice, and both maps have the same fixed
+//! point.
 
 use super::linear::Lu;
 use crate::measure::multipliers::{Matrix, is_stable};
 use crate::measure::strobe::{distance, residual};
 
-/// Largest number of chord steps of an iteration. One to three are usual.
+/// Largest number of chord steps of an iteration. Usually, one to three chord steps are sufficient.
 const MAX_CHORD_STEPS: u32 = 6;
 
 /// Factor by which the residual must decrease from one step of an iteration to the next.
 pub(super) const PROGRESS: f64 = 0.5;
 
-/// Largest distance between the march and the prediction of the orbit's linear map, relative to the distance between
-/// march and orbit.
+/// Largest allowed deviation of the march from the motion that the linear map of the orbit predicts. The
+/// deviation is relative to the distance between the march and the orbit.
 const LINEAR: f64 = 0.3;
 
-/// A state near a periodic orbit, with the derivative of the map there. If the residual is small, the state is on the
-/// orbit.
+/// A state on or near a periodic orbit, and the derivative of the period map at this state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Orbit<const N: usize> {
     /// State at the beginning of a period.
     pub(super) y: [f64; N],
-    /// Responses of the map's result to changes of `y`, in units of the states' typical sizes.
+    /// Derivatives of the map's result with respect to `y`, in units of the states' typical sizes.
     pub(super) monodromy: Matrix<N>,
 }
 
-/// A part of a march.
+/// A part of a march, from one state to a later state.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Marched<const N: usize> {
-    /// State at its beginning.
+    /// State at the beginning of this part of the march.
     pub(super) begin: [f64; N],
-    /// State at its end.
+    /// State at the end of this part of the march.
     pub(super) end: [f64; N],
-    /// Error of both states, in units of the states' typical sizes.
+    /// Error of the states `begin` and `end`, in units of the states' typical sizes.
     pub(super) error: f64,
     /// Number of applications of the period map from `begin` to `end`.
     pub(super) maps: i32,
 }
 
 impl<const N: usize> Orbit<N> {
-    /// Returns true if the orbit is stable and attracts this march: the march moved as the orbit's linear map
-    /// predicts.
+    /// Returns true if the orbit is stable, and if the march approaches the orbit as the linear map of the
+    /// orbit predicts.
     pub(super) fn attracts(&self, march: &Marched<N>, scale: &[f64; N]) -> bool {
         let offset = |state: &[f64; N]| core::array::from_fn(|i| (state[i] - self.y[i]) / scale[i]);
         let end: [f64; N] = offset(&march.end);
@@ -58,7 +58,8 @@ impl<const N: usize> Orbit<N> {
 
 /// The chord iteration `y ← y + (I − M)⁻¹ (Φ(y) − y)` for a fixed point of the map Φ.
 ///
-/// M is the monodromy matrix of a nearby orbit. It is updated after each step by Broyden's formula.
+/// At the beginning, M is the monodromy matrix of a nearby orbit. After each step, Broyden's formula updates
+/// M.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chord<const N: usize> {
     /// Current state of the iteration, with the matrix M.
@@ -71,14 +72,16 @@ pub(super) struct Chord<const N: usize> {
 }
 
 impl<const N: usize> Chord<N> {
-    /// Returns the iteration that begins at `orbit`.
+    /// Returns a chord iteration that begins at the state of `orbit`, with the monodromy matrix of `orbit`.
     pub(super) fn new(orbit: Orbit<N>, scale: &[f64; N]) -> Chord<N> {
         Chord { orbit, residual: f64::INFINITY, scale: *scale, before: None, steps: 0 }
     }
 
-    /// Moves to the next state, given the end of the period from the current state.
+    /// Makes one step of the iteration. `end` is the state at the end of the period that begins at the
+    /// current state.
     ///
-    /// Returns false, without moving, if the residual hardly decreases any further or the linear system is singular.
+    /// If the residual hardly decreases, too many steps were made, or the linear system is singular, the
+    /// result is false. The state of the iteration then does not change.
     pub(super) fn step(&mut self, end: &[f64; N]) -> bool {
         self.update(end);
         let residual = residual(&self.orbit.y, end, &self.scale);
@@ -95,8 +98,8 @@ impl<const N: usize> Chord<N> {
 
     /// Updates M by Broyden's formula from the last step.
     ///
-    /// The step should have ended on the orbit, so the change over the period after it is the error of M along the
-    /// step.
+    /// With an exact M, the step would end on the orbit, and the next period would not change the state. The
+    /// change over the next period is therefore the error of M in the direction of the step.
     fn update(&mut self, end: &[f64; N]) {
         let Some(before) = self.before else { return };
         let step: [f64; N] = core::array::from_fn(|i| (self.orbit.y[i] - before[i]) / self.scale[i]);
@@ -113,8 +116,8 @@ impl<const N: usize> Chord<N> {
     }
 }
 
-/// Returns the fixed point of the linear map that leads from the beginning of `near` to `end` and has its monodromy
-/// matrix.
+/// Returns the fixed point of a linear map. The map takes the state of `near` to `end`, and its derivative is
+/// the monodromy matrix of `near`.
 ///
 /// `None` if the linear system is singular or not finite.
 pub(super) fn fixed_point<const N: usize>(

@@ -1,4 +1,5 @@
-//! Drive periods that a search requests, and their exchange with the driver that integrates them.
+//! The drive periods that a search requests, and the exchange of requests and results between the search and
+//! the driver. The driver integrates the requested periods.
 
 use core::cell::Cell;
 use core::future::poll_fn;
@@ -13,7 +14,7 @@ use crate::ode::ensemble::Restart;
 pub(super) enum Kind {
     /// States alone.
     States,
-    /// States and their responses to changes of the initial state.
+    /// States, and the derivatives of the states with respect to the initial state.
     Responses,
     /// States, and means and first harmonics of the signals.
     Means,
@@ -30,27 +31,29 @@ impl Kind {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Request<const N: usize> {
     pub(super) kind: Kind,
-    /// Start of the period; `None` for the next period of the same run.
+    /// Start of the period. `None` requests the period that follows the last period of the same run.
     pub(super) begin: Option<Restart<N>>,
 }
 
-/// End of a period, with totals `T` over the signals.
+/// Results at the end of a period. `T` is the type of the sums over the signals.
 #[derive(Clone, Debug)]
 pub(super) struct PeriodEnd<T, const N: usize> {
     /// State.
     pub(super) y: [f64; N],
-    /// Largest magnitude of each state since the start of the run; for [`Kind::States`].
+    /// Largest magnitude of each state since the start of the run, for [`Kind::States`]. NaN for other kinds
+    /// of periods.
     pub(super) largest: [f64; N],
-    /// Monodromy matrix in units of the states' typical sizes; for [`Kind::Responses`].
+    /// Monodromy matrix in units of the states' typical sizes, for [`Kind::Responses`]. NaN for other kinds
+    /// of periods.
     pub(super) monodromy: Matrix<N>,
-    /// Sums over the signals; for [`Kind::Means`] and [`Kind::Signals`].
+    /// Sums over the signals, for [`Kind::Means`] and [`Kind::Signals`]. `None` for other kinds of periods.
     pub(super) sums: Option<Box<T>>,
-    /// Ending, and cost since the start of the run.
+    /// Reason for the end of the integration, and the costs since the start of the run.
     pub(super) outcome: Outcome,
 }
 
 impl<T, const N: usize> PeriodEnd<T, N> {
-    /// Returns a period without other quantities.
+    /// Returns the end of a period, with the state and the outcome only.
     pub(super) fn new(y: [f64; N], outcome: Outcome) -> Self {
         PeriodEnd { y, largest: [f64::NAN; N], monodromy: [[f64::NAN; N]; N], sums: None, outcome }
     }
@@ -60,7 +63,7 @@ impl<T, const N: usize> PeriodEnd<T, N> {
 pub(super) struct Exchange<T, const N: usize> {
     request: Cell<Option<Request<N>>>,
     end: Cell<Option<PeriodEnd<T, N>>>,
-    /// A box of totals that can be used again.
+    /// Allocated memory for sums over the signals, which the next measured period uses again.
     spare: Cell<Option<Box<T>>>,
 }
 
@@ -69,18 +72,19 @@ impl<T, const N: usize> Exchange<T, N> {
         Exchange { request: Cell::new(None), end: Cell::new(None), spare: Cell::new(None) }
     }
 
-    /// For the search: requests a period and waits for its end.
+    /// Requests a period and waits for the end of the period. The search calls this function.
     pub(super) async fn period(&self, request: Request<N>) -> PeriodEnd<T, N> {
         self.request.set(Some(request));
         poll_fn(|_| self.end.take().map_or(Poll::Pending, Poll::Ready)).await
     }
 
-    /// For the search: returns totals for reuse, so that a repeated measurement does not allocate.
+    /// Stores the box of `totals`, so that the next measured period needs no new memory. The search calls
+    /// this function.
     pub(super) fn reuse(&self, totals: Option<Box<T>>) {
         self.spare.set(totals);
     }
 
-    /// For the driver: returns totals in a box.
+    /// Returns `totals` in a box, which is the stored box if there is one. The driver calls this function.
     pub(super) fn boxed(&self, totals: T) -> Box<T> {
         match self.spare.take() {
             Some(mut spare) => {
@@ -91,12 +95,12 @@ impl<T, const N: usize> Exchange<T, N> {
         }
     }
 
-    /// For the driver: returns the request of a waiting search.
+    /// Returns the request of the search that waits. The driver calls this function.
     pub(super) fn request(&self) -> Option<Request<N>> {
         self.request.get()
     }
 
-    /// For the driver: stores the end of the requested period.
+    /// Stores the end of the requested period. The driver calls this function.
     pub(super) fn finish(&self, end: PeriodEnd<T, N>) {
         self.end.set(Some(end));
     }

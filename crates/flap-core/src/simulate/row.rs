@@ -1,4 +1,4 @@
-//! Rows: results of points, with statuses and columns.
+//! The row of a design point: its status, its measures, and the names of the measured columns.
 
 use core::fmt::Display;
 
@@ -10,38 +10,44 @@ use crate::model::{Model, OverWings, SignalSet};
 pub struct Row {
     /// Result in one word.
     pub status: Status,
-    /// One value per column of the model if the point is on an orbit of one drive period, otherwise empty.
+    /// One value for each column of the model. Empty if flap found no orbit of one drive period.
     pub measures: Vec<f64>,
-    /// Number of integrated drive periods, including the measured ones.
+    /// Number of integrated drive periods, including the periods for the measures.
     pub cycles: u32,
-    /// Change of the strobed state over the last orbit period, in units of each state's typical size.
+    /// Largest change of a state over the last period of the orbit, in units of the state's typical size.
     ///
-    /// For a symmetric orbit it is the change over half a period. NaN if no period was completed.
+    /// For a symmetric orbit, the residual is the distance between the initial state and the mirrored state
+    /// half a period later. NaN if no drive period was completed.
     pub residual: f64,
-    /// Length of the orbit in drive periods: 1, or more for a subharmonic; 0 if no orbit was found.
+    /// Length of the orbit in drive periods: 1, or 2 and more for a subharmonic orbit. The length is 0 if no
+    /// orbit was found.
     pub period: u32,
     /// Largest modulus of the orbit's Floquet multipliers.
     ///
-    /// A small change of the state grows or decays by this factor per orbit in the long run.
+    /// After many orbits, a small change of the state grows or decays by this factor per orbit.
     ///
-    /// Its error is larger than the errors of the measures, see `docs/models/numerics.md`. NaN without an orbit, and
-    /// for a wing at rest: forces proportional to the square of a speed have no linear part there.
+    /// The error of this factor is larger than the errors of the measures, see `docs/models/numerics.md`. NaN
+    /// if no orbit was found, or if the wing is at rest and the factor is not clearly above 1. In still air,
+    /// the drag on a wing at rest has no linear part, so only rounding errors decide if the factor is below
+    /// 1.
     pub floquet_max: f64,
     /// Estimate of the largest relative integration error of the model's [principal
     /// measures](crate::model::Principal), such as stroke, pitch, lift and power.
     ///
-    /// See `docs/models/numerics.md`. Infinite if it cannot be estimated, NaN without measures.
+    /// See `docs/models/numerics.md`. Infinite if the error cannot be estimated, and NaN if the row has no
+    /// measures.
     pub error_estimate: f64,
-    /// State at the end of the last drive period, on the orbit if there is one. Empty if no period was completed.
+    /// State at the end of the last drive period. If flap found an orbit, this state is on the orbit. Empty
+    /// if no drive period was completed.
     pub state: Vec<f64>,
-    /// Number of right-hand sides evaluated by the integrator.
+    /// Number of evaluations of the right-hand side by the integrator.
     pub rhs_evals: u64,
-    /// Reason for invalid parameters.
+    /// Reason why the parameter values are impossible.
     pub reason: Option<String>,
 }
 
 impl Row {
-    /// Returns a row with a status alone, for a point without a completed period.
+    /// Returns a row that contains only a status. All further values of this row are missing or zero.
     pub(super) fn empty(status: Status) -> Row {
         Row {
             status,
@@ -57,12 +63,13 @@ impl Row {
         }
     }
 
-    /// Returns the row of a point with an impossible combination of parameter values, with the reason.
+    /// Returns the row of a point whose combination of parameter values is impossible. The row contains the
+    /// `reason`.
     pub fn invalid(reason: impl Display) -> Row {
         Row { reason: Some(reason.to_string()), ..Row::empty(Status::Invalid) }
     }
 
-    /// Returns true if motions near the orbit approach it; `None` without an orbit.
+    /// Returns true if motions near the orbit approach the orbit. `None` if the row has no orbit.
     pub fn stable(&self) -> Option<bool> {
         match (self.period, self.floquet_max.is_nan()) {
             (0, _) => None,
@@ -73,29 +80,30 @@ impl Row {
     }
 }
 
-/// Result of a point's run in one word.
+/// Result of the simulation of a point in one word.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize), serde(rename_all = "snake_case"))]
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Status {
-    /// Settled on an orbit with the period of the drive.
+    /// The motion has settled on an orbit of one drive period.
     Periodic,
-    /// On an unstable orbit with the period of the drive. No motion settles there. Continuation of a branch finds
-    /// such orbits, and they have measures.
+    /// The row describes an unstable orbit of one drive period. No motion settles on an unstable orbit. flap
+    /// finds unstable orbits when it follows a branch, and the rows of these orbits have measures.
     Unstable,
-    /// Settled on an orbit of two or more drive periods.
+    /// The motion has settled on an orbit of two or more drive periods.
     Subharmonic,
-    /// Not settled within `max_cycles`.
+    /// The motion has not settled within `max_cycles` drive periods.
     Unsettled,
     /// The state became infinite or not a number.
     Diverged,
-    /// More than `max_steps` integration steps in one drive period, or steps too small to advance time.
+    /// One drive period needs more than `max_steps` integration steps, or the integration needs steps that
+    /// are too small.
     StepLimit,
     /// The combination of parameter values is impossible.
     Invalid,
 }
 
 impl Status {
-    /// All statuses, in the order of reports.
+    /// All statuses, in the order in which reports list the statuses.
     pub const ALL: [Status; 7] = [
         Status::Periodic,
         Status::Unstable,
@@ -106,7 +114,7 @@ impl Status {
         Status::Invalid,
     ];
 
-    /// Returns the word in the `status` column.
+    /// Returns the word for this status in the column `status` of a row.
     pub fn name(self) -> &'static str {
         match self {
             Status::Periodic => "periodic",
@@ -120,16 +128,16 @@ impl Status {
     }
 }
 
-/// One measured column.
+/// The description of one column with a measure.
 #[derive(Debug, Clone)]
 pub struct Column {
-    /// Name with its unit, such as `lift_mean_mn`.
+    /// Name of the column, which ends with the unit, such as `lift_mean_mn`.
     pub name: String,
-    /// Unit in words as in `flap models`, such as `mN`.
+    /// Unit as `flap models` prints it, such as `mN`.
     pub unit: &'static str,
     /// Description in one line.
     pub doc: String,
-    /// Form of this column in the rows of a vehicle.
+    /// Columns in the rows of a vehicle that correspond to this column of its wings.
     pub over_wings: OverWings,
 }
 

@@ -17,7 +17,7 @@ use crate::model::{self, Description, Model, Signal, SignalSet};
 use crate::num::Backend;
 use crate::parameter::Invalid;
 
-/// A model as an object-safe [`Simulator`]: everything that a sweep needs of a user-defined model.
+/// Makes an object-safe [`Simulator`] of a model, so that sweeps can use a user-defined model.
 ///
 /// The model has N states. At least one signal has a [principal measure](crate::model::Principal), which determines
 /// the error estimate of a row.
@@ -145,7 +145,8 @@ pub struct Runner<M, const N: usize> {
 }
 
 impl<M: model::ExperimentModel<N>, const N: usize> Runner<M, N> {
-    /// Returns a simulator that also supports experiments. Compiles under the conditions of [`Runner::new`].
+    /// Returns a simulator that also supports experiments. As for [`Runner::new`], a signal of the model must
+    /// have a principal measure, otherwise the code does not compile.
     pub const fn with_experiments(model: M) -> Self {
         const { Self::CHECKED }
         Runner { model, columns: OnceLock::new(), experiments: |runner| Some(runner) }
@@ -153,7 +154,7 @@ impl<M: model::ExperimentModel<N>, const N: usize> Runner<M, N> {
 }
 
 impl<M: Model<N>, const N: usize> Runner<M, N> {
-    /// Compiles only if a signal has a principal measure.
+    /// A check at compile time: the code compiles only if a signal of the model has a principal measure.
     const CHECKED: () = {
         assert!(
             has_principal(M::Signals::TABLE),
@@ -161,8 +162,8 @@ impl<M: Model<N>, const N: usize> Runner<M, N> {
         );
     };
 
-    /// Returns a simulator for rows and motions. Compiles only if a signal has a [principal
-    /// measure](crate::model::Principal).
+    /// Returns a simulator for rows and motions. The code compiles only if a signal of the model has a
+    /// [principal measure](crate::model::Principal).
     pub const fn new(model: M) -> Self {
         const { Self::CHECKED }
         Runner { model, columns: OnceLock::new(), experiments: |_| None }

@@ -10,7 +10,7 @@ use crate::ode::solve::solve_until;
 use crate::ode::step::Attempt;
 use crate::ode::{Interrupt, Start};
 
-/// Follows the run from `start` for `spans` spans, with equidistant samples in each.
+/// Integrates a motion from `start` over `spans` time spans, and takes equidistant samples in each time span.
 pub(super) fn sampled<M, R, const N: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -54,12 +54,13 @@ pub(super) struct Sampler {
     /// Index of the next sample of the current cycle.
     next: u32,
     rows: Vec<Vec<f64>>,
-    /// End of the last cycle. The first sample of the next cycle replaces it.
+    /// Sample at the end of the last cycle. If a further cycle begins, the first sample of that cycle
+    /// replaces this sample.
     last: Option<Vec<f64>>,
 }
 
 impl Sampler {
-    /// Returns a new sampler. It takes no samples if `samples_per_cycle` is 0.
+    /// Returns a new sampler, which takes no samples if `samples_per_cycle` is 0.
     pub(super) fn new(samples_per_cycle: u32) -> Sampler {
         Sampler { samples_per_cycle, began: 0.0, span: 0.0, next: 0, rows: Vec::new(), last: None }
     }
@@ -71,7 +72,7 @@ impl Sampler {
         self.next = 0;
     }
 
-    /// Takes the samples within an accepted step.
+    /// Takes the samples whose times lie within an accepted integration step.
     pub(super) fn step<M, R, const N: usize>(
         &mut self,
         model: &M,
@@ -124,7 +125,8 @@ pub(super) fn meanings<M: Model<N>, const N: usize>() -> Vec<String> {
     meanings
 }
 
-/// Returns one row of a trajectory, at `t` within a cycle and `time` since the beginning (s).
+/// Returns one row of a trajectory. `t` is the time since the beginning of the cycle, and `time` is the time
+/// since the beginning of the motion (s).
 fn sample<M, R, const N: usize>(
     model: &M,
     c: &M::Constants<R>,
@@ -146,7 +148,7 @@ where
     row
 }
 
-/// Returns the signals with columns, in the units of the columns.
+/// Returns the values of the signals that have columns, in the units of the columns.
 pub(super) fn shown<S: SignalSet>(signals: &S::Of<f64>) -> impl Iterator<Item = f64> {
     let shown = S::each(signals).filter(|(signal, _)| signal.is_shown());
     shown.map(|(signal, value)| value * signal.unit.factor)

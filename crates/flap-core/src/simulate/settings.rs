@@ -2,38 +2,41 @@
 
 use crate::ode::Tolerances;
 
-/// Settings of the integrator, and the conditions for a settled point.
+/// Settings of the integrator and of the search for a settled motion.
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(clippy::struct_excessive_bools, reason = "each is a setting of its own")]
 pub struct SolverSettings {
-    /// Relative tolerance of the integrator, per step and component.
+    /// Relative tolerance of one integration step, for each component of the state.
     pub rtol: f64,
-    /// Absolute tolerance, in units of each state's typical size in the model.
+    /// Absolute tolerance of one integration step, in units of each state's typical size.
     pub atol: f64,
-    /// Largest change of the state per drive period of a settled motion, in units of each state's typical size.
+    /// A motion has settled if its state changes by at most this amount per drive period, in units of each
+    /// state's typical size.
     pub settle_tol: f64,
-    /// Number of drive periods after which a point counts as unsettled.
+    /// Number of drive periods after which a motion that has not settled counts as unsettled.
     pub max_cycles: u32,
     /// Largest number of integration steps within one drive period.
     pub max_steps: u32,
-    /// Largest [`error_estimate`](super::Row::error_estimate) and energy audit of a row.
+    /// Largest allowed [`error_estimate`](super::Row::error_estimate) and energy audit of a row.
     ///
-    /// A point whose row exceeds the accuracy is integrated again with tighter tolerances, up to a limit.
+    /// If the error estimate or the energy audit is larger, flap computes the row again with smaller
+    /// tolerances, at most a few times.
     pub accuracy: f64,
     /// True to use Newton's iteration on the period map to find the orbit that a motion approaches.
     ///
-    /// If false, points settle by marching, to the same orbits in more periods. Newton's iteration then only improves
-    /// the settled orbit.
+    /// If false, flap integrates drive periods until the motion has settled, which leads to the same orbit
+    /// but needs more periods. In this case, Newton's iteration only improves the orbit of the settled
+    /// motion.
     pub newton: bool,
-    /// True to begin Newton's iteration at looser tolerances.
+    /// True to begin the search for an orbit with larger tolerances than `rtol` and `atol`.
     pub progressive: bool,
-    /// True to find and measure the orbits of symmetric points over half periods.
+    /// True to integrate only half of a period if the second half of the orbit mirrors the first half.
     pub symmetry: bool,
     /// True to append the mean load of the air at the wing's shoulder (N and N·m) to the measures of rows.
     ///
-    /// For the load see [`Load::at_shoulder`](crate::model::Load::at_shoulder). Vehicles use it; grid files cannot
-    /// set it.
+    /// For the load see [`Load::at_shoulder`](crate::model::Load::at_shoulder). Vehicles use this setting,
+    /// and grid files cannot change it.
     #[cfg_attr(feature = "serde", serde(skip))]
     pub loads: bool,
 }
@@ -53,9 +56,10 @@ impl SolverSettings {
         loads: false,
     };
 
-    /// The settings by name, for grid files, the command line and Python.
+    /// The settings that grid files, the command line and Python can change, with their names.
     ///
-    /// Apply values in this order: `rtol` comes first and changes the settings that follow it.
+    /// Change the settings in the order of this table: a change of `rtol`, the first setting, also changes
+    /// `atol` and `accuracy`.
     pub const TABLE: &'static [Setting] = &[
         Setting::new(
             "rtol",
@@ -108,9 +112,11 @@ impl SolverSettings {
         ),
     ];
 
-    /// Returns these settings with another relative tolerance, and with the settings that follow it by default.
+    /// Returns a copy of these settings with the relative tolerance `rtol`, and with the default `atol` and
+    /// `accuracy` for this `rtol`.
     ///
-    /// These are `atol`, a hundredth of `rtol`, and `accuracy`, 1,000 times `rtol` but at least 1e-3.
+    /// The default `atol` is a hundredth of `rtol`. The default `accuracy` is 1,000 times `rtol`, but at
+    /// least 1e-3.
     pub fn with_rtol(self, rtol: f64) -> SolverSettings {
         SolverSettings { rtol, atol: rtol / 100.0, accuracy: (1000.0 * rtol).max(1e-3), ..self }
     }
@@ -127,14 +133,15 @@ impl Default for SolverSettings {
     }
 }
 
-/// One of the [`SolverSettings`]. Its default is its value in [`SolverSettings::DEFAULT`].
+/// The description of one setting of [`SolverSettings`]. The default of a setting is its value in
+/// [`SolverSettings::DEFAULT`].
 #[derive(Clone, Copy, Debug)]
 pub struct Setting {
-    /// Name in grid files, on the command line and in Python.
+    /// Name of the setting in grid files, on the command line and in Python.
     pub name: &'static str,
-    /// Allowed values, and access to the setting.
+    /// Allowed values of the setting, and functions that read and change the setting.
     pub kind: SettingKind,
-    /// Default in words, if it depends on another setting.
+    /// Formula of the default value, if the default value depends on another setting.
     pub follows: Option<&'static str>,
     /// Description in one line.
     pub doc: &'static str,
@@ -145,13 +152,13 @@ impl Setting {
         Setting { name, kind, follows: None, doc }
     }
 
-    /// Returns the setting with a default that follows another setting, as described by `follows`.
+    /// Returns a setting whose default depends on another setting. `follows` is the formula of the default.
     const fn following(self, follows: &'static str) -> Setting {
         Setting { follows: Some(follows), ..self }
     }
 }
 
-/// Returns the kind of a number that is more than zero and less than `below`.
+/// Returns the kind of a setting whose value is more than zero and less than `below`.
 const fn number(
     below: f64,
     get: fn(&SolverSettings) -> f64,
@@ -165,25 +172,25 @@ const fn number(
 pub enum SettingKind {
     /// A number more than zero and less than `below`.
     Number {
-        /// Upper limit; infinite if any finite number more than zero is allowed.
+        /// Upper limit of the number. The limit is infinite if all finite numbers more than zero are allowed.
         below: f64,
         /// Reads the setting.
         get: fn(&SolverSettings) -> f64,
-        /// Writes the setting, and the settings that follow it.
+        /// Changes the setting, and the settings whose defaults depend on it.
         set: fn(&mut SolverSettings, f64),
     },
     /// A whole number, 1 or more.
     Count {
         /// Reads the setting.
         get: fn(&SolverSettings) -> u32,
-        /// Writes the setting.
+        /// Changes the setting.
         set: fn(&mut SolverSettings, u32),
     },
     /// True or false.
     Flag {
         /// Reads the setting.
         get: fn(&SolverSettings) -> bool,
-        /// Writes the setting.
+        /// Changes the setting.
         set: fn(&mut SolverSettings, bool),
     },
 }

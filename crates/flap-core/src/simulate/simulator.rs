@@ -23,25 +23,29 @@ use crate::parameter::{Invalid, Parameter, Preset};
 
 /// Source of rows: it computes one row per design point.
 pub trait Rows: Sync {
-    /// Returns the measured columns of each row, in order.
+    /// Returns the columns of the measures, in the order of [`Row::measures`].
     fn columns(&self) -> &[Column];
 
-    /// Runs the points of `jobs` on the SIMD lanes of `backend` until none are left.
+    /// Computes the rows of all points from `jobs` on the SIMD lanes of `backend`.
     ///
-    /// Rows are returned in the order in which points finish. A row depends on its point and `solver` alone. It does
-    /// not depend on other points, their order, or the `backend` within an arithmetic class.
+    /// [`Jobs::done`] receives the rows in the order in which their computations end. A row depends only on
+    /// its point and on `solver`. Other points and the order of the points have no effect on a row. All
+    /// backends of one arithmetic class compute the same row.
     fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
-    /// Runs one point on scalars, from rest or from the state `begin` (see [`Point::begin`]).
+    /// Computes the row of one point with scalars, from rest or from the state `begin` (see
+    /// [`Point::begin`]).
     ///
-    /// The result has the same bits as [`Rows::run`]. If the run is interrupted, the row is meaningless.
+    /// The row has the same bits as the row from [`Rows::run`]. If the computation is interrupted, the row is
+    /// meaningless.
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row;
 }
 
-/// Runs `points` on the lanes of `backend`. Returns their rows in the order of the points; point indices are ignored.
+/// Computes the rows of `points` on the SIMD lanes of `backend`. The rows are in the order of `points`, and
+/// [`Point::index`] has no effect.
 ///
 /// # Errors
-/// [`Unfinished::Interrupted`] if `interrupted` returns true, or if `rows` leaves a point without a row.
+/// [`Unfinished::Interrupted`] if `interrupted` returns true, or if `rows` computes no row for a point.
 pub fn run_list(
     rows: &dyn Rows,
     backend: Backend,
@@ -56,7 +60,7 @@ pub fn run_list(
     rows.ok_or(Unfinished::Interrupted)
 }
 
-/// A list of points, and rows by the position of their point.
+/// A list of points, and the list of their rows in the same order.
 struct List<'a> {
     points: Enumerate<IntoIter<Point>>,
     rows: Vec<Option<Row>>,
@@ -80,22 +84,23 @@ impl Jobs for List<'_> {
     }
 }
 
-/// A model that computes rows from design points, with the information that sweeps need.
+/// A model that computes rows from design points, and describes its parameters and presets.
 pub trait Simulator: Rows {
-    /// Returns name, parameters and properties.
+    /// Returns the name, the parameters and the properties of the model.
     fn description(&self) -> Description<'_>;
 
-    /// Returns the name in grid files, such as `direct-drive`.
+    /// Returns the name of the model in grid files, such as `direct-drive`.
     fn name(&self) -> &'static str {
         self.description().name
     }
 
-    /// Returns the description in one line: the robot and the paper.
+    /// Returns the description of the model in one line: the robot and the paper.
     fn doc(&self) -> &'static str {
         self.description().doc
     }
 
-    /// Returns the parameter table. A point is one `f64` per entry, see [`Parameter`].
+    /// Returns the parameter table. The values of a point are one `f64` for each entry of this table, see
+    /// [`Parameter`].
     fn parameters(&self) -> &[Parameter<'_>] {
         self.description().parameters
     }
@@ -108,7 +113,7 @@ pub trait Simulator: Rows {
     /// Returns the trait object for derivatives of rows.
     ///
     /// # Errors
-    /// An error if the model computes rows alone.
+    /// An error if the model computes only rows.
     fn gradients(&self) -> Result<&dyn Gradients, Unfinished> {
         Err(Unfinished::no_motions(self.name()))
     }
@@ -116,7 +121,7 @@ pub trait Simulator: Rows {
     /// Returns the trait object for motions of single points.
     ///
     /// # Errors
-    /// An error if the model computes rows alone.
+    /// An error if the model computes only rows.
     fn motions(&self) -> Result<&dyn Motions, Unfinished> {
         Err(Unfinished::no_motions(self.name()))
     }
@@ -130,16 +135,17 @@ pub trait Simulator: Rows {
     }
 }
 
-/// Derivatives of rows along changes of a point.
+/// Derivatives of the measures of a row with respect to changes of the parameter values.
 pub trait Gradients: Sync {
-    /// Returns the names of the states with their units, in the order of a state.
+    /// Returns the names of the states with their units, in the order of [`Row::state`].
     fn states(&self) -> Vec<String>;
 
-    /// Returns the derivatives of the measures along each of `changes`, for the orbit that begins at `state`.
+    /// Returns the derivatives of the measures in the direction of each change in `changes`, for the orbit
+    /// that begins at `state`.
     ///
-    /// `state` is for example [`Row::state`] of a periodic row. The cost is one period of the states and two measured
-    /// periods for each change, and about six more periods. Each has 1.6 times the steps of a period at the solver's
-    /// tolerances.
+    /// `state` is for example [`Row::state`] of a periodic row. For each change, flap integrates three
+    /// periods. Once, flap integrates N + 3 further periods, where N is the number of states. Each of these
+    /// periods has about 1.6 times as many steps as a period at the solver's tolerances.
     ///
     /// # Errors
     /// See [`Motions`].
@@ -147,9 +153,10 @@ pub trait Gradients: Sync {
     -> Result<Gradient, Unfinished>;
 }
 
-/// Motions of single points with their own drive. The columns of a trajectory are `time_s`, the states, and signals.
+/// Motions of single points with the drive that the parameters of the point describe. The columns of a
+/// trajectory are `time_s`, the states, and signals.
 ///
-/// Motions are computed on scalars. Each method returns these errors:
+/// Motions are computed with scalars, not in SIMD lanes. Each method returns these errors:
 ///
 /// - [`Unfinished::Interrupted`] if the run is interrupted
 /// - [`Unfinished::Invalid`] if the combination of values or the request is impossible, or if the motion fails
@@ -160,13 +167,15 @@ pub trait Motions: Gradients {
     /// Returns the description of each column of a trajectory in one line, in the order of the columns.
     fn meanings(&self) -> Vec<String>;
 
-    /// Follows one point for one drive period from the state `begin`. The motion need not repeat.
+    /// Integrates the motion of one point over one drive period, from the state `begin`. The state at the end
+    /// of the period may differ from `begin`.
     ///
     /// # Errors
     /// See [`Motions`].
     fn period(&self, run: &PointRun<'_>, begin: &[f64]) -> Result<Period, Unfinished>;
 
-    /// Returns samples of the motion of one point, settled or from rest.
+    /// Returns samples of the motion of one point: of the settled motion, or of the motion that begins at
+    /// rest.
     ///
     /// # Errors
     /// See [`Motions`]. Also an error if a settled motion is requested, and the motion does not settle on an orbit of one
@@ -175,10 +184,11 @@ pub trait Motions: Gradients {
         self.trajectory_from(run, None, request)
     }
 
-    /// Returns samples of the motion of one point that begins in the state `begin` at the start of a drive period, or
-    /// at rest.
+    /// Returns samples of the motion of one point. The motion begins at the start of a drive period, in the
+    /// state `begin` or at rest.
     ///
-    /// If a settled motion is requested, it is the motion that this one approaches.
+    /// If a settled motion is requested, the samples are samples of the settled motion that the motion from
+    /// `begin` approaches.
     ///
     /// # Errors
     /// See [`Motions::trajectory`]. Also an error if `begin` is not one finite number for each state.
@@ -189,21 +199,23 @@ pub trait Motions: Gradients {
         request: &TrajectoryRequest,
     ) -> Result<Trajectory, Unfinished>;
 
-    /// Returns the equations of a wing with these values, for any motion of its shoulder.
+    /// Returns the equations of a wing with the given parameter values, for any motion of the wing's
+    /// shoulder.
     ///
-    /// Velocity and rates of the body in `values` must not all be zero: they select the equations. Their size has no
-    /// effect.
+    /// One or more of the velocities and rates of the body in `values` must be nonzero, to select the
+    /// equations with body motion. The size of these velocities and rates has no effect.
     ///
     /// # Errors
     /// An error if the combination of values is impossible.
     fn moving_wing(&self, values: &[f64]) -> Result<Box<dyn MovingWing>, Invalid>;
 }
 
-/// Experiments on single points: another drive or motion replaces the point's own.
+/// Experiments on single points: the drive or the motion of the experiment replaces the drive of the point.
 ///
 /// For the errors see [`Motions`].
 pub trait Experiments: Sync {
-    /// Returns the response of one point to a chirp, which replaces its drive frequency.
+    /// Returns the response of one point to a chirp. The frequency of the chirp replaces the drive frequency
+    /// of the point.
     ///
     /// # Errors
     /// See [`Motions`].
@@ -221,17 +233,18 @@ pub trait Experiments: Sync {
     /// An error if the combination of values is impossible, or if stroke and pitch have different durations.
     fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Invalid>;
 
-    /// Returns the small undamped motions of one point. The first one is the motion that an impulse on the stroke
-    /// excites.
+    /// Returns the natural modes of one point, which are small motions without damping. The first mode is the
+    /// motion that an impulse on the stroke excites.
     ///
     /// # Errors
     /// An error if the combination of values is impossible.
     fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Invalid>;
 
-    /// Returns the signals whose frequencies describe a free motion. The first one is the signal that an impulse
-    /// excites.
+    /// Returns the signals whose frequencies describe a free motion. The first signal is the signal that an
+    /// impulse on the stroke excites.
     fn free_signals(&self) -> &'static [Signal];
 
-    /// Returns the same model with samples as its waveform. `samples` over a drive period replace `drive_shape`.
+    /// Returns a copy of the model whose waveform is given by samples. The `samples` over one drive period
+    /// replace the parameter `drive_shape`.
     fn with_samples(&self, samples: Samples) -> Box<dyn Simulator>;
 }

@@ -1,5 +1,5 @@
-//! One point on scalars: its row, its motion over time, and single periods. This simple code is the reference for the
-//! lanes.
+//! The row, the motion over time, or a single period of one point, computed with scalars. This code is
+//! simple, and its results are the reference for the results of the SIMD lanes.
 
 use super::lanes::run_alone;
 use super::orbit_row::measures;
@@ -16,33 +16,33 @@ use crate::num::{Backend, Scalar};
 use crate::ode::{Interrupt, Start, never};
 use crate::parameter::Invalid;
 
-/// Run of a single point on scalars.
+/// The parameter values and settings for a computation of a single point with scalars.
 #[derive(Clone, Copy)]
 pub struct PointRun<'a> {
-    /// Backend that determines the arithmetic class.
+    /// Backend whose arithmetic class the computation uses.
     pub backend: Backend,
     /// Solver settings.
     pub solver: &'a SolverSettings,
     /// One value per parameter of the model.
     pub values: &'a [f64],
-    /// Callback that ends the run early.
+    /// Callback that returns true to end the computation early.
     pub interrupted: Interrupt<'a>,
 }
 
 impl<'a> PointRun<'a> {
-    /// Returns a run that is never interrupted.
+    /// Returns the values and settings for a computation that is never interrupted.
     pub fn new(backend: Backend, solver: &'a SolverSettings, values: &'a [f64]) -> PointRun<'a> {
         PointRun { backend, solver, values, interrupted: &never }
     }
 
-    /// Returns the same run, which ends early once `interrupted` returns true.
+    /// Returns a copy of these settings for a computation that ends early if `interrupted` returns true.
     #[must_use]
     pub fn until(self, interrupted: Interrupt<'a>) -> PointRun<'a> {
         PointRun { interrupted, ..self }
     }
 }
 
-/// Evaluates an expression in which `$R` is the scalar type of the run's arithmetic.
+/// Evaluates an expression in which `$R` is the scalar type of the arithmetic class of the backend.
 macro_rules! on_scalars {
     ($run:expr, $R:ident => $value:expr) => {
         match $run.backend.arithmetic() {
@@ -59,7 +59,8 @@ macro_rules! on_scalars {
 }
 pub(super) use on_scalars;
 
-/// Returns the row of a point from the state `from`, or from rest. If the run is interrupted, the row is meaningless.
+/// Returns the row of a point whose motion begins in the state `from` or at rest. If the computation is
+/// interrupted, the row is meaningless.
 pub(super) fn row<M: Model<N>, R: Scalar, const N: usize>(
     model: &M,
     run: &PointRun<'_>,
@@ -77,7 +78,7 @@ pub(super) fn row<M: Model<N>, R: Scalar, const N: usize>(
     settled.map_or_else(|| Row::empty(Status::Unsettled), |settled| settled.row)
 }
 
-/// Returns the motion of a point from the state `from`, or from rest.
+/// Returns the motion of a point that begins in the state `from` or at rest.
 pub(super) fn trajectory<M: Model<N>, R: Scalar, const N: usize>(
     model: &M,
     run: &PointRun<'_>,
@@ -107,7 +108,8 @@ pub(super) fn trajectory<M: Model<N>, R: Scalar, const N: usize>(
     sampled::<M, R, N>(model, solver, &start, cycles, samples_per_cycle, interrupted)
 }
 
-/// Returns the drive period that begins at the state `from`. The motion need not repeat.
+/// Returns the results of the drive period that begins in the state `from`. The state at the end of the
+/// period may differ from `from`.
 pub(super) fn period<M: Model<N>, R: Scalar, const N: usize>(
     model: &M,
     run: &PointRun<'_>,

@@ -9,7 +9,8 @@ use crate::parameter::Invalid;
 
 /// Returns the start of a point, at rest or at `state`.
 ///
-/// If rows contain no loads, a moving body must not have the response "frozen".
+/// If the rows contain no loads and the body moves, the value "frozen" of the parameter `body_response` is an
+/// error.
 pub(super) fn start_at<M: Model<N>, const N: usize>(
     model: &M,
     solver: &SolverSettings,
