@@ -28,7 +28,8 @@ struct Joined {
 }
 
 impl Joined {
-    /// Adds a module after the modules that it imports. `importers` is the chain of modules that leads to it.
+    /// Adds a module after the modules that it imports. `importers` is the chain of modules that leads to
+    /// this module by imports.
     fn add(&mut self, module: &str, importers: &mut Vec<String>) {
         if self.modules.contains(module) {
             return;
@@ -54,7 +55,8 @@ impl Joined {
     }
 }
 
-/// Returns a module without types, which are in comments `/** … */`, and without comments that have their own lines.
+/// Returns the code of a module without comments `/** … */`, which contain types, and without lines that
+/// contain only a comment.
 ///
 /// The text begins with an empty line, so that every import follows a line break.
 fn without_comments(source: &str) -> String {

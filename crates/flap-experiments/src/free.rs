@@ -42,7 +42,8 @@ pub struct FreeMotion {
     pub spectra: Vec<(&'static str, Vec<SpectrumPeak>)>,
 }
 
-/// Returns the stroke rate (rad/s) after an impulse that causes this `amplitude` (rad) of the undamped first mode.
+/// Returns the stroke rate (rad/s) directly after an impulse that causes the given stroke `amplitude` (rad)
+/// in the undamped first mode.
 ///
 /// # Errors
 /// [`Invalid`] if the first mode has no frequency, because a spring is missing.

@@ -50,7 +50,8 @@ pub fn strokes(edges: &[LeadingEdge]) -> Vec<f64> {
     strokes.collect()
 }
 
-/// Returns the pitch (rad) of a wing with its lower edge at a projected `distance` from its leading edge, Eq. (42).
+/// Returns the pitch (rad) of a wing, Eq. (42). `distance` is the distance in the image between the lower
+/// edge and the leading edge of the wing.
 ///
 /// `chord` is the length of the chord at this position.
 ///

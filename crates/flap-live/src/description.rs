@@ -1,4 +1,4 @@
-//! Parameters, measures and the first view of a design, as data for the page.
+//! Parameters and measures of a design, and the chart that the page shows first, as data for the page.
 
 use std::f64::consts::PI;
 
@@ -12,11 +12,11 @@ use serde_json::{Map, Value};
 
 use crate::opened::Opened;
 
-/// The parameter along x in the first view, if the model has this parameter.
+/// The parameter on the x-axis of the chart that the page shows first, if the model has this parameter.
 const DRIVE_FREQUENCY: &str = "drive_frequency";
 const DRIVE_VOLTAGE: &str = "drive_voltage_pp";
 
-/// Largest number of lines in the first view.
+/// Largest number of lines in the chart that the page shows first.
 const MOST_LINES: usize = 8;
 
 /// The data of the page.
@@ -54,7 +54,7 @@ struct ParameterText<'a> {
     low: f64,
     high: f64,
     log: bool,
-    /// The limits of allowed values, if there are two.
+    /// The smallest and the largest allowed value, if the range of the parameter has two limits.
     limits: Option<[f64; 2]>,
     whole: bool,
     fitted: bool,
@@ -69,7 +69,8 @@ struct MeasureText {
     doc: String,
 }
 
-/// The first view: a measure over a parameter, with a line for each value of another parameter.
+/// The chart that the page shows first: a measure over a parameter, with a line for each value of another
+/// parameter.
 #[derive(Serialize)]
 struct View<'a> {
     x: Axis<'a>,
@@ -186,7 +187,7 @@ struct Slider {
     high: f64,
     /// True for a logarithmic slider.
     log: bool,
-    /// The limits of allowed values, if there are two.
+    /// The smallest and the largest allowed value, if the range of the parameter has two limits.
     limits: Option<[f64; 2]>,
     /// The typical size of values, which determines the shown unit.
     typical: f64,
@@ -254,7 +255,8 @@ fn measures(plan: &Plan) -> Vec<MeasureText> {
         .collect()
 }
 
-/// Returns the first view: the axes of a grid, or the drive frequency for several voltages.
+/// Returns the chart that the page shows first: over the axes of the grid, or over the drive frequency for
+/// several voltages.
 fn view<'a>(plan: &'a Plan, values: &[f64], measures: &[MeasureText]) -> View<'a> {
     let parameters = plan.parameters();
     let is_number = |index: usize| !matches!(parameters[index].kind, Kind::Choice(_));
@@ -286,7 +288,8 @@ fn view<'a>(plan: &'a Plan, values: &[f64], measures: &[MeasureText]) -> View<'a
     }
 }
 
-/// Returns the different values of a parameter among the points of a plan, rising. A long list of points is thinned.
+/// Returns the different values that a parameter has at the points of a plan, in rising order. In a long list
+/// of points, the function reads only every n-th point.
 fn values_of(plan: &Plan, index: usize) -> Vec<f64> {
     const MOST_POINTS: u64 = 4096;
     let stride = usize::try_from(plan.len().div_ceil(MOST_POINTS)).unwrap_or(1).max(1);
@@ -298,7 +301,7 @@ fn values_of(plan: &Plan, index: usize) -> Vec<f64> {
     values
 }
 
-/// Returns at most [`MOST_LINES`] of some values, including the first and the last.
+/// Returns at most [`MOST_LINES`] of the given values, including the first and the last value.
 fn thinned(values: &[f64]) -> Vec<f64> {
     if values.len() <= MOST_LINES {
         return values.to_vec();

@@ -8,7 +8,7 @@
 //! - `request`: requests of the live page
 //! - `rows`: rows of a sweep as JSON
 //! - `opened`: the design that was opened, and grid files for the contents of the page
-//! - `description`: parameters, measures and the first view, for the page
+//! - `description`: parameters, measures and the first chart, as data for the page
 //! - `answer`: one file for each kind of request
 //! - `guard`: checks the token, the host and the origin of requests
 //! - `server`: the HTTP server

@@ -16,10 +16,11 @@ use toml_edit::DocumentMut;
 
 use crate::request::{By, Design, MOST_ROWS, Number, Refused, XAxis};
 
-/// The sections of the opened file that every grid of the page keeps; the other sections are about points and files.
+/// The sections of the opened file that every grid file of the page contains. The remaining sections of the
+/// opened file describe points and files.
 const KEPT: [&str; 4] = ["vehicle", "derived", "where", "measure"];
 
-/// The name that messages use for the grids of the page.
+/// The name that messages show instead of a file name for the grid files of the page.
 const NAME: &str = "the grid of the page";
 
 /// The design that was opened.
@@ -27,7 +28,8 @@ pub(crate) struct Opened {
     /// The plan that was opened.
     plan: Plan,
     models: Vec<&'static dyn Simulator>,
-    /// The text of a grid with the preset and the kept sections, without parameters.
+    /// The beginning of the text of a grid file: the preset, the sections from the opened file and the solver
+    /// settings, without parameters.
     head: String,
     /// The plan of `head`, in which all parameters have the published values.
     published: Plan,
@@ -42,7 +44,7 @@ impl Opened {
     /// Opens the first design of a plan, with its formulas, conditions and settings.
     ///
     /// # Errors
-    /// The mistakes of the opened file if its points are left out.
+    /// The mistakes that the opened file has without its sections about points.
     pub(crate) fn new(plan: Plan, models: &[&'static dyn Simulator]) -> Result<Opened, Mistakes> {
         let head = head(&plan);
         let published = parsed(&plan, &head, models)?;
@@ -77,7 +79,7 @@ impl Opened {
         self.published.point(0).values
     }
 
-    /// Returns the row of the published design, in the layout of the page's plans without axes.
+    /// Returns the row of the published design, with the columns of a grid without axes.
     pub(crate) fn published_row(&self) -> &Row {
         self.published_row.get_or_init(|| {
             let values = self.published();
@@ -152,8 +154,9 @@ impl Opened {
             && !self.plan.derived().parameters().any(|derived| derived == index)
     }
 
-    /// Returns the standard error of an opened value. Varied parameters have none, because the standard error of the
-    /// device does not belong to the values of axes.
+    /// Returns the standard error of a parameter value from the opened file. Parameters on the axes of the
+    /// opened file have no standard error, because the standard error in a device describes only the device's
+    /// own value.
     fn error(&self, index: usize) -> Option<f64> {
         let is_varied = self.plan.axes().varied().any(|varied| varied == index);
         self.plan.uncertainty().error(index).filter(|_| !is_varied)
@@ -161,7 +164,7 @@ impl Opened {
 
     /// Writes lines for the parameters that differ from the published values, except parameters in `axes`.
     ///
-    /// Opened values keep their standard errors.
+    /// Values from the opened file keep their standard errors.
     fn write_params(&self, page: &mut String, design: &Design, axes: &[Option<&str>]) {
         let published = self.published();
         // The page shows one design, and its grids have no parameter for the name of the design.
@@ -190,7 +193,7 @@ impl Opened {
         }
     }
 
-    /// Writes the correlations between opened values.
+    /// Writes the correlations between values from the opened file.
     fn write_correlations(&self, page: &mut String, design: &Design, axes: &[Option<&str>]) {
         for Correlation { between, coefficient } in self.plan.uncertainty().correlations() {
             let is_written =
@@ -210,7 +213,7 @@ impl Opened {
     /// Returns the plan of a grid file of the page, which is checked like every grid file.
     ///
     /// # Errors
-    /// [`Refused::Impossible`] with the first mistake.
+    /// [`Refused::Impossible`] with the first mistake in the grid file.
     pub(crate) fn plan_of(&self, grid: &str) -> Result<Plan, Refused> {
         parsed(&self.plan, grid, &self.models).map_err(|mistakes| match mistakes.first() {
             Some(first) => refused(first, self.plan.parameters()),
@@ -221,20 +224,22 @@ impl Opened {
     /// Returns the plan of one design.
     ///
     /// # Errors
-    /// [`Refused::Impossible`] with the first mistake.
+    /// [`Refused::Impossible`] with the first mistake in the grid file.
     pub(crate) fn design(&self, design: &Design) -> Result<Plan, Refused> {
         self.plan_of(&self.grid(design, None, None)?)
     }
 }
 
-/// Returns the plan of a grid file of the page. Devices of wings have the contents that they had when `opened` was read.
+/// Returns the plan of a grid file of the page. If the grid file names device files of wings, these files are
+/// not read again: the function uses the contents that are stored in `opened`.
 fn parsed(opened: &Plan, grid: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
     // Paths of devices are relative to the folder of the opened file.
     let name = Path::new(&opened.source().name).with_file_name(NAME);
     grid::parse_recorded(&name.display().to_string(), grid, opened.devices(), models)
 }
 
-/// Returns true if a formula of the file uses a value of the file's device. The grids of the page start from a preset.
+/// Returns true if a formula of the opened file uses a value of the file's device. The grid files of the page
+/// contain no device, but only a preset.
 pub(crate) fn uses_device(plan: &Plan) -> bool {
     let document: DocumentMut = plan.source().text.parse().unwrap_or_default();
     let sections = KEPT.iter().filter_map(|name| document.get(name)?.as_table_like());
@@ -242,7 +247,8 @@ pub(crate) fn uses_device(plan: &Plan) -> bool {
     document.contains_key("device") && formulas.any(|formula| formula.contains("device."))
 }
 
-/// Returns the beginning of every grid file of the page: the preset, the kept sections and the solver settings.
+/// Returns the beginning of every grid file of the page: the preset, the sections from the opened file and
+/// the solver settings.
 fn head(plan: &Plan) -> String {
     let mut document: DocumentMut = plan.source().text.parse().unwrap_or_default();
     let strays: Vec<String> = document.iter().map(|(key, _)| key.to_owned()).collect();
@@ -281,7 +287,8 @@ fn number(value: &Number) -> String {
     }
 }
 
-/// Returns a mistake in a grid of the page as a refusal, with the parameter in the line of the mistake.
+/// Converts a mistake in a grid file of the page into a refusal, which names the parameter in the line of the
+/// mistake.
 fn refused(mistake: &Diagnostic, parameters: &[Parameter]) -> Refused {
     let line = mistake.source.text.lines().nth(mistake.line().saturating_sub(1)).unwrap_or_default();
     let name = line.split('=').next().unwrap_or_default().trim();

@@ -1,6 +1,6 @@
 //! Pages for a browser. Each page is one text with its style, code and data.
 
-/// The chart library's style, then the style of all pages.
+/// The style sheet of the chart library, and the style sheet that all pages share.
 const STYLES: [&str; 2] = [include_str!("../web/uplot/uPlot.min.css"), include_str!("../web/shared.css")];
 /// The chart library.
 const CHART_LIBRARY: &str = include_str!("../web/uplot/uPlot.iife.min.js");
@@ -38,12 +38,13 @@ fn filled(html: &str, heading: &str, style: &str, data: &str, script: &str) -> S
     page
 }
 
-/// Returns JSON that is safe in a script: without `<`, no text can end the script or start another script.
+/// Returns JSON that is safe in a script. Without the character `<`, no text in the JSON can end the script
+/// or start another script.
 fn script_safe(json: &str) -> String {
     json.replace('<', "\\u003c").replace('>', "\\u003e").replace('&', "\\u0026")
 }
 
-/// Returns a text as HTML.
+/// Returns a text in which characters with a meaning in HTML, such as `<`, are escaped.
 fn escaped(text: &str) -> String {
     let mut out = String::new();
     for letter in text.chars() {

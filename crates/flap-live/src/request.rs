@@ -100,7 +100,8 @@ pub(crate) enum SaveKind {
 pub(crate) enum Refused {
     /// The request does not have the form of a request of the page.
     Malformed(String),
-    /// Values that are impossible, with advice and the parameter concerned.
+    /// The values in the request are impossible. The fields contain the reason, advice, and the parameter
+    /// with the impossible value.
     Impossible { error: String, help: Option<String>, parameter: Option<String> },
     /// The connection was closed, so nobody waits for the answer.
     Cancelled,

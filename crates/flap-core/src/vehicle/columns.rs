@@ -66,7 +66,8 @@ impl Columns {
         columns
     }
 
-    /// Returns the values of a vehicle's columns, from its wrench and the measures of its wings.
+    /// Returns the values of a vehicle's columns, from the vehicle's force and torque and from the measures
+    /// of its wings.
     pub(super) fn values(&self, wrench: &Wrench, body: &MassProperties, wings: &[&[f64]]) -> Vec<f64> {
         let Wrench { force, torque } = wrench;
         let sum = |column: usize| wings.iter().map(|measures| measures[column]).sum::<f64>();

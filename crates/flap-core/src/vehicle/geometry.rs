@@ -78,7 +78,7 @@ impl Wrench {
         }
     }
 
-    /// Returns the wrench with the torque about another point (m).
+    /// Returns the same force, with the torque about another `point` (m) of the body.
     pub(super) fn about(self, point: [f64; 3]) -> Wrench {
         Wrench { force: self.force, torque: self.torque - Vector3::from(point).cross(&self.force) }
     }

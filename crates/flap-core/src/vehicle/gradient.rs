@@ -10,9 +10,9 @@ impl Gradients for Vehicle {
         self.states.clone()
     }
 
-    /// The vehicle's measures are linear functions of the wings' measures, except efficiency and lift over weight. The
-    /// derivatives of the vehicle's measures are therefore computed by differences, in the direction of the derivatives
-    /// of the wings' measures.
+    /// The vehicle's measures are linear functions of the wings' measures, except efficiency and lift over
+    /// weight. The derivatives of the vehicle's measures are therefore computed as finite differences. In
+    /// these differences, the wings' measures change in proportion to their derivatives.
     fn gradient(
         &self,
         run: &PointRun<'_>,

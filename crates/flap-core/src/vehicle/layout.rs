@@ -76,8 +76,8 @@ impl Vehicle {
         self.columns.values(&wrench, &self.table.mass_properties(values), wings)
     }
 
-    /// Returns true if the wings may have different values of a parameter of the model. All numbers except the drive
-    /// frequency may differ.
+    /// Returns true if the wings may have different values of a parameter of the model. All numeric
+    /// parameters except the drive frequency and the motion of the body may differ between wings.
     pub fn may_differ(parameter: &Parameter<'_>) -> bool {
         parameters::may_differ(parameter)
     }

@@ -4,8 +4,8 @@
 //! parameters of the model for all wings, the parameters of single wings, and the positions of the wings. The rows of a
 //! vehicle contain the mean force and torque of the air in the body axes.
 //!
-//! Wings do not interact, and the body is at rest or moves steadily through still air. Each wing is therefore an
-//! independent design point, and the mean of its inertial reaction over a period is zero.
+//! Wings do not interact, and the body is at rest or moves steadily through still air. Each wing is therefore
+//! an independent design point, and the mean inertial force of a wing over a period is zero.
 //!
 //! In the body axes, x points forward, y to the left, and z up.
 

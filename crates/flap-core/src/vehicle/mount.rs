@@ -17,7 +17,7 @@ pub struct Mount {
     pub mirrored: bool,
 }
 
-/// Error in the wings of a vehicle.
+/// Reason why a vehicle with the given wings is impossible.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum VehicleError {
     /// The vehicle has no wings.

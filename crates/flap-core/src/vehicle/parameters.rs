@@ -1,5 +1,6 @@
-//! Parameters of a vehicle. The parameters are the parameters of the model for all wings, of the vehicle as a whole,
-//! and of single wings. Further parameters are differences between left and right wings.
+//! Parameters of a vehicle. They are the parameters of the model for all wings, the parameters of the whole
+//! vehicle, and the parameters of single wings. A vehicle also has parameters for the differences between
+//! left and right wings.
 
 use self_cell::self_cell;
 
@@ -102,7 +103,8 @@ impl Own {
 type Parameters<'a> = Vec<Parameter<'a>>;
 
 self_cell!(
-    /// All parameters of a vehicle, with the names and descriptions of the parameters that the model does not have.
+    /// All parameters of a vehicle. The owner stores the names and descriptions of the parameters that the
+    /// model does not have.
     struct Named {
         owner: Vec<Own>,
         #[covariant]
@@ -193,7 +195,8 @@ impl Table {
         Ok(Table { named, model, own, wings: mounts.len(), mirrored, has_differences, motion })
     }
 
-    /// Returns all parameters: of the model, of the vehicle, of single wings, and of differences between wings.
+    /// Returns all parameters: the parameters of the model, of the vehicle, of single wings, and of
+    /// differences between wings.
     pub(super) fn parameters(&self) -> &[Parameter<'_>] {
         self.named.borrow_dependent()
     }
@@ -226,8 +229,8 @@ impl Table {
     /// Returns the parameter values of the model for one wing.
     ///
     /// # Errors
-    /// Returns an error if a difference shifts a value out of its range. Returns an error, too, if a difference belongs
-    /// to a parameter that is not set and follows other parameters.
+    /// Returns an error if a difference shifts a value out of its range. Returns an error, too, if a
+    /// difference changes a parameter that is not set and is computed from other parameters.
     pub(super) fn of_wing(&self, values: &[f64], wing: usize) -> Result<Vec<f64>, Invalid> {
         let mut own_values = values[..self.model.len()].to_vec();
         let own = self.begin(wing) + PLACE.len();

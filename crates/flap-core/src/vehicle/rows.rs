@@ -75,7 +75,7 @@ struct Design {
 struct Wings {
     values: Vec<f64>,
     designs: Vec<Design>,
-    /// Index of the design of each wing.
+    /// For each wing, the index of its design in `designs`.
     of_wing: Vec<usize>,
 }
 
@@ -98,7 +98,7 @@ impl Wings {
         Ok(wings)
     }
 
-    /// Returns the row of the vehicle if all designs have rows, otherwise `None`.
+    /// Returns the row of the vehicle if the designs of all wings have rows, otherwise `None`.
     fn row(&self, vehicle: &Vehicle) -> Option<Row> {
         let rows: Option<Vec<&Row>> =
             self.of_wing.iter().map(|&design| self.designs[design].row.as_ref()).collect();
@@ -152,7 +152,7 @@ struct WingJobs<'a> {
     /// Points of the vehicle whose row is not finished. The key is the number of the point, and the value contains the
     /// index of the point in `jobs` and the wings.
     begun: HashMap<u64, (u64, Wings)>,
-    /// Number of the next point.
+    /// Number of the next point of the vehicle.
     next: u64,
 }
 

@@ -1,4 +1,5 @@
-//! The design, the options and the stop flag of an answer, and the reasons of failed answers.
+//! The design and the options from which an answer is computed, its stop flag, and the reasons why an answer
+//! fails.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -23,7 +24,7 @@ impl AnswerContext<'_> {
     }
 }
 
-/// Converts the reason why a run returned no rows.
+/// Converts the reason why a run returned no rows into the reason why an answer fails.
 impl From<RunError> for Refused {
     fn from(error: RunError) -> Refused {
         Refused::Fault(error.to_string())

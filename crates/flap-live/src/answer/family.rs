@@ -1,4 +1,4 @@
-//! Families of lines. The rows of a family equal the rows of a sweep of the same grid.
+//! Families of lines. The rows of a family of lines equal the rows of a sweep over the same grid.
 
 use flap_sweep::run::{self, RowWriter, Summary};
 
@@ -6,7 +6,7 @@ use super::context::AnswerContext;
 use crate::request::{FamilyRequest, Refused};
 use crate::rows::Rows;
 
-/// Computes the rows of a family.
+/// Computes the rows of a family of lines.
 pub(crate) fn family(context: &AnswerContext<'_>, request: &FamilyRequest) -> Result<Rows, Refused> {
     let FamilyRequest { design, x, by } = request;
     let plan = context.opened.plan_of(&context.opened.grid(design, Some(x), by.as_ref())?)?;

@@ -11,7 +11,7 @@ use super::context::{AnswerContext, unfinished};
 use crate::description;
 use crate::request::{MOST_ROWS, MotionRequest, Refused};
 
-/// A motion: samples in rows.
+/// A motion, with one row for each sample.
 #[derive(Serialize)]
 pub(crate) struct Motion {
     columns: Vec<String>,

@@ -1,4 +1,5 @@
-//! The measures of a design and of the published design, their natural frequencies, and the derivatives of a measure.
+//! The measures and natural frequencies of a design and of the published design, and the derivatives of a
+//! measure.
 
 use std::sync::atomic::Ordering;
 

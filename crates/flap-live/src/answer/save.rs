@@ -23,8 +23,8 @@ fn device(plan: &Plan) -> Result<String, Refused> {
     })
 }
 
-/// Returns lines of Python that assign the result of a function of flapwing to `result`. The arguments of the function
-/// are the text of a grid file, and `more`.
+/// Returns lines of Python that assign the result of a function of flapwing to `result`. The first argument
+/// of the function is the text of a grid file, and `more` contains the further arguments.
 fn python(result: &str, function: &str, grid: &str, more: &str) -> String {
     let grid = grid.replace('\\', r"\\").replace(r#"""""#, r#"\"\"\""#);
     format!("import flapwing\n\n{result} = flapwing.{function}(\"\"\"\\\n{grid}\"\"\"{more})\n")

@@ -31,7 +31,7 @@ const MOST_BLOCKING: usize = 16;
 pub struct LiveOptions {
     /// Port of the server; 0 selects a free port.
     pub port: u16,
-    /// Threads and SIMD instructions for rows.
+    /// Threads and SIMD instructions for the computation of rows.
     pub run: RunOptions,
 }
 
@@ -44,7 +44,7 @@ pub enum StartError {
     /// The operating system provides no threads or no random numbers.
     #[error("cannot start the server: {0}")]
     System(String),
-    /// The opened file has mistakes if its points are left out.
+    /// The opened file has mistakes without its sections about points.
     #[error("the design is not valid without its points")]
     Design(Mistakes),
     /// A formula uses a value of the device, but the designs of the page start from the preset.
@@ -76,8 +76,8 @@ impl Server {
     /// Starts a server of the live page for the first design of `plan`. `models` contains the presets.
     ///
     /// # Errors
-    /// [`StartError`] if the port is in use, the file has mistakes without its points or uses values of its device, or
-    /// the system provides no threads.
+    /// [`StartError`] if the port is in use, or if the system provides no threads. Also if the file has
+    /// mistakes without its sections about points, or if its formulas use values of its device.
     pub fn start(
         plan: Plan,
         models: &[&'static dyn Simulator],

@@ -29,7 +29,8 @@ pub(super) struct ServerState {
 /// Computes the answer to a request from the body of the request. The answer and the body are JSON.
 pub(super) type Answer = fn(&AnswerContext<'_>, &[u8]) -> Result<Vec<u8>, Refused>;
 
-/// Returns the function that answers the kind of request with this name in addresses.
+/// Returns the function that answers a kind of request. `kind` is the name of this kind in the addresses of
+/// requests.
 pub(super) fn answer_of(kind: &str) -> Option<Answer> {
     let answer: Answer = match kind {
         "family" => |context, body| written(&answer::family(context, &read(body)?)?),
@@ -42,7 +43,8 @@ pub(super) fn answer_of(kind: &str) -> Option<Answer> {
     Some(answer)
 }
 
-/// The flag of a request. The flag is set when the request is dropped, because nobody then waits for the answer.
+/// A flag that stops the computation of an answer. The flag is set when its request is dropped, because
+/// nobody then waits for the answer.
 #[derive(Default)]
 pub(super) struct CancelOnDrop(Arc<AtomicBool>);
 
@@ -53,7 +55,7 @@ impl Drop for CancelOnDrop {
 }
 
 impl CancelOnDrop {
-    /// Returns the flag, for the thread that computes.
+    /// Returns the flag for the thread that computes the answer.
     pub(super) fn flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
     }
@@ -71,7 +73,8 @@ impl ServerState {
         Ok(page::live(&format!("{} · flap live", self.opened.plan().source().name), &data))
     }
 
-    /// Returns what an answer needs. The flag `stop` cancels the answer.
+    /// Returns the design and the options from which an answer is computed. The flag `stop` cancels the
+    /// answer.
     pub(super) fn context<'a>(&'a self, stop: &'a AtomicBool) -> AnswerContext<'a> {
         AnswerContext { opened: &self.opened, options: self.run, stop }
     }
