@@ -1,13 +1,14 @@
-//! Searches of many points, with their drive periods integrated in lanes.
+//! Runs the searches of many points, and integrates the drive periods of these searches in SIMD lanes.
 //!
-//! A search is a future that requests a drive period and waits for its end. Each [kind](Kind) of period has its own
-//! ensemble, so lanes carry no unnecessary quantities.
+//! A search is a future that requests a drive period and waits for its end. Each [kind](Kind) of period has
+//! its own ensemble, so that lanes integrate no unnecessary quantities.
 //!
-//! Most periods are of the states alone. Their ensemble takes new points as lanes become free. Searches that request
-//! another kind wait until there are many of them, or until there is no other work. Then a second ensemble integrates
-//! these periods, while the lanes of the first ensemble keep their state.
+//! In most periods, only the states are integrated. When a lane of the ensemble for these periods becomes
+//! free, the ensemble starts the search of a new point. A search that requests another kind of period waits
+//! until many searches request this kind, or until no other work is left. Then a second ensemble integrates
+//! the periods of this kind. Meanwhile, the lanes of the first ensemble keep their state.
 //!
-//! Single points run in the same way, on one scalar lane.
+//! The search of a single point runs in the same way, in one scalar lane.
 
 use core::cell::{Cell, RefCell};
 use core::pin::Pin;
@@ -31,14 +32,16 @@ use crate::ode::ensemble::{
 };
 use crate::ode::{Interrupt, Start};
 
-/// Number of searches that wait for one kind of period before they are continued together.
+/// If this number of searches wait for one kind of period, their periods are integrated together.
 ///
-/// It is many times the number of lanes, because some lanes are empty while the last runs end.
+/// This number is much larger than the number of lanes, because some lanes are empty while the last periods
+/// end.
 const BATCH: usize = 128;
 
-/// Number of points of other variants that are set aside before the ensemble is emptied for them.
+/// Largest number of points of other model variants that wait while the ensemble integrates points of one
+/// variant.
 ///
-/// It is many times the number of lanes, so that lanes are seldom empty.
+/// This number is much larger than the number of lanes, so that lanes are seldom empty.
 const ASIDE: usize = 512;
 
 /// Kernel that runs the points of `jobs` on SIMD lanes, for a model with N states.
@@ -134,14 +137,14 @@ where
     output.take()
 }
 
-/// A search in progress. The search reports its own result.
+/// A search that is in progress. The future `search` stores the result of the search itself.
 struct Running<'a, M: Model<N>, const N: usize> {
     start: Start<M::Constants<f64>, N>,
     exchange: Rc<Exchange<SumsOf<M, N>, N>>,
     search: Pin<Box<dyn Future<Output = ()> + 'a>>,
 }
 
-/// Boxed, because a run moves between lanes and lists at the end of each period.
+/// A search in progress, in a box because it moves between lanes and lists at the end of each period.
 type Run<'a, M, const N: usize> = Box<Running<'a, M, N>>;
 
 impl<'a, M: Model<N>, const N: usize> Running<'a, M, N> {
@@ -160,7 +163,7 @@ impl<'a, M: Model<N>, const N: usize> Running<'a, M, N> {
 /// and `None` is the end.
 type Source<'s, 'a, M, const N: usize> = &'s mut dyn FnMut(bool) -> Option<Run<'a, M, N>>;
 
-/// Searches, and the ensembles that integrate their periods.
+/// The driver of searches: it continues the searches, and integrates the periods that the searches request.
 struct Driver<'a, 's, I, M: Model<N>, const N: usize> {
     simd: I,
     model: &'a M,
@@ -196,8 +199,8 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
         }
     }
 
-    /// Integrates periods of the kinds that need other quantities than the states, until a search marches again or
-    /// none waits.
+    /// Integrates the requested periods of all kinds except [`Kind::States`]. The function returns when a
+    /// search requests a period of [`Kind::States`], or when no search waits.
     fn integrate_others(&mut self) {
         while self.waiting[Kind::States as usize].is_empty() && !(self.interrupted)() {
             let Some(other) = self.other_that_waits(1) else { return };
@@ -205,9 +208,11 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
         }
     }
 
-    /// Returns a kind of period other than the states alone for which at least `searches` searches wait.
+    /// Returns a kind of period, except [`Kind::States`], for which at least the given number of searches
+    /// wait.
     ///
-    /// Measured periods come last, when the most orbits have been found.
+    /// The kinds of measured periods are last, so that many orbits have been found before measured periods
+    /// are integrated.
     fn other_that_waits(&self, searches: usize) -> Option<Kind> {
         let mut others = Kind::ALL.into_iter().skip(1);
         others.find(|&kind| self.waiting[kind as usize].len() >= searches)
@@ -245,7 +250,8 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
         }
     }
 
-    /// Returns the queue of periods of one kind. The function `store` adds the totals of a period to its end.
+    /// Returns the queue of periods of one kind. The function `store` stores the totals over a period in the
+    /// [`PeriodEnd`] of the period.
     fn periods<'d, V>(
         &'d mut self,
         kind: Kind,
@@ -254,8 +260,8 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
         Periods { driver: self, kind, store, runs: [const { None }; MOST_LANES] }
     }
 
-    /// Continues a search to its next request. Returns the search if the request is of this kind; otherwise it waits
-    /// or has ended.
+    /// Continues a search to its next request. If the requested period has the given `kind`, the function
+    /// returns the search. Otherwise the search has ended, or it is added to the searches that wait.
     fn poll_search(
         &mut self,
         mut run: Run<'a, M, N>,
@@ -313,7 +319,8 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
     }
 }
 
-/// Function that adds the totals `V` of a period to its end. Totals over the signals have the type `T`.
+/// Function that stores the totals `V` over a period in the [`PeriodEnd`] of the period. Totals over the
+/// signals have the type `T`.
 type Store<V, T, const N: usize> = fn(&V, &mut PeriodEnd<T, N>, &Exchange<T, N>);
 
 /// The periods of one kind, as the queue of an ensemble whose totals over a period have the type `V`.

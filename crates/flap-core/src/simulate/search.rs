@@ -1,21 +1,27 @@
-//! The search for the settled motion of a point, from its first drive period to its row.
+//! The search for the settled motion of a point, from the first integrated drive period to the row of the
+//! point.
 //!
 //! [`Search::settle`] consists of these stages:
 //!
-//! 1. **Find.** The point is marched from rest, one drive period after another, until Newton's iteration leads to a
-//!    nearby periodic orbit. A loose tolerance suffices for this.
-//! 2. **Middle.** The orbit of a middle tolerance is found and measured. It is much closer to the row's orbit than the
-//!    first one. The difference of its measures from the row gives the row's error estimate.
-//! 3. **Approach.** Chord steps at the tolerance of the row lead close to its orbit. A period with responses to changes
-//!    of the state gives the monodromy matrix, and Newton's step with it gives the orbit. The period of this orbit is
-//!    measured, which confirms the orbit.
-//! 4. **Judge.** A row that is not accurate enough is computed again with tighter tolerances, from its orbit.
+//! 1. **Find.** flap integrates one drive period after another from rest, until Newton's iteration leads to a
+//!    nearby periodic orbit. For this stage, a loose tolerance is sufficient.
+//! 2. **Middle.** At a middle tolerance, flap finds the orbit and computes its measures. This orbit is much
+//!    closer to the orbit of the row than the orbit at the loose tolerance. The difference between its
+//!    measures and the measures of the row gives the error estimate of the row.
+//! 3. **Approach.** Chord steps at the tolerance of the row lead close to the orbit of the row. A period with
+//!    responses to changes of the initial state gives the monodromy matrix. A Newton step with this matrix
+//!    leads to the orbit. The period of this orbit is then integrated and measured, which also confirms that
+//!    the motion returns to its initial state.
+//! 4. **Judge.** If a row is not accurate enough, the row is computed again with tighter tolerances, from the
+//!    orbit that was found.
 //!
-//! If the point is [symmetric](Symmetry), its orbit is presumably symmetric too. Newton's iteration, the chord steps
-//! and the measured periods then integrate half a period and mirror its end. The march always integrates whole
-//! periods. If no symmetric orbit is found, the search continues with whole periods.
+//! If the equations are [symmetric](Symmetry), the orbit is probably symmetric too. For a symmetric orbit,
+//! Newton's iteration, the chord steps and the measured periods integrate half a period, and the final state
+//! is mirrored. The march always integrates whole periods. If no symmetric orbit is found, the search
+//! continues with whole periods.
 //!
-//! If the search at the loose tolerance fails, it begins again, at rest and at the tolerance of the row.
+//! If the search at the loose tolerance fails, the search begins again from rest, at the tolerance of the
+//! row.
 //!
 //! A search does not integrate: it requests drive periods and waits for them (see [`periods`](super::periods)). A
 //! driver integrates the periods of many points in lanes (see [`lanes`](super::lanes)).
@@ -35,55 +41,63 @@ use crate::model::{Model, Symmetry};
 use crate::ode::ensemble::Restart;
 use crate::ode::{Ending, Outcome, Start, input, slope};
 
-/// Relative tolerance at the beginning of a search. Rows with a larger tolerance begin at their own tolerance.
+/// Relative tolerance at the beginning of a search, if the relative tolerance of the row is at most
+/// [`LOOSE_FOR`]. The search of other rows begins at the tolerance of the row.
 const LOOSE_RTOL: f64 = 3e-4;
 
-/// Largest relative tolerance of a row whose search begins at [`LOOSE_RTOL`]. For larger tolerances this costs more
-/// than it saves.
+/// Largest relative tolerance of a row whose search begins at [`LOOSE_RTOL`]. For larger tolerances of the
+/// row, a search at the loose tolerance costs more than it saves.
 const LOOSE_FOR: f64 = 4e-6;
 
-/// Excess of a multiplier over 1 below which a wing at rest counts as stable.
+/// A wing at rest counts as stable if its Floquet multipliers exceed 1 by at most this amount.
 const NEUTRAL: f64 = 1e-3;
 
 /// Largest number of drive periods marched at the loose tolerance.
 const LOOSE_CYCLES: u32 = 16;
 
-/// Residual of an orbit at the loose tolerance. Jumps of the period map are smaller at this tolerance.
+/// Largest residual of an orbit that is found at the loose tolerance. At the loose tolerance, the step-size
+/// control makes the period map jump by less than this residual.
 const LOOSE_RESIDUAL: f64 = 1e-2;
 
-/// Residual of a march at the loose tolerance that is as close to its orbit as Newton's iteration would lead.
+/// Residual below which the march at the loose tolerance is as close to its orbit as the result of Newton's
+/// iteration would be.
 const ARRIVED: f64 = 1e-3;
 
-/// Number of drive periods up to which a march below [`LOOSE_RESIDUAL`] continues until it has [`ARRIVED`].
+/// A march with a residual between [`ARRIVED`] and [`LOOSE_RESIDUAL`] continues without Newton's iteration up
+/// to this number of drive periods.
 const ARRIVAL_CYCLES: u32 = 9;
 
-/// Factor between the middle tolerances and the tolerances of a row. The errors of the two orbits differ by about
-/// this factor.
+/// The middle tolerances are the tolerances of the row, multiplied by this factor. The errors of the orbits
+/// at the two tolerances differ by about this factor.
 const MIDDLE: f64 = 64.0;
 
-/// Residual at the middle tolerance, relative to that tolerance, below which one more chord step is the last.
+/// Residual at the middle tolerance, relative to this tolerance, below which the chord iteration ends after
+/// one further step.
 const MIDDLE_RESIDUAL: f64 = 10.0;
 
-/// Relative tolerance of the period with responses for the multipliers, relative to the root of the row's tolerance.
+/// Relative tolerance of the period from which the Floquet multipliers are computed, divided by the square
+/// root of the row's relative tolerance.
 ///
-/// It is never smaller than the row's tolerance.
+/// The tolerance for the Floquet multipliers is never smaller than the tolerance of the row.
 const RESPONSES: f64 = 1.25e-3;
 
-/// Residual at which one more step leads to a state with the monodromy matrix of the orbit, relative to the root of
-/// the row's tolerance.
+/// Residual below which one further step leads so close to the orbit that its monodromy matrix can be
+/// computed there. The residual is relative to the square root of the row's tolerance.
 const MATRIX_RESIDUAL: f64 = 0.1;
 
-/// Length of a step with the monodromy matrix of the row's orbit below which the step is assumed to be the last.
+/// If a step with the monodromy matrix of the row's orbit is shorter than this length, flap assumes that no
+/// further step is needed.
 ///
-/// It is relative to the root of the goal.
+/// The length is relative to the square root of the target residual.
 ///
-/// A step leaves a residual of about its square.
+/// After a step, the residual is about the square of the step length.
 const LAST_STEP: f64 = 0.1;
 
-/// Largest number of Newton iterations. If the iteration converges at all, it takes two to four.
+/// Largest number of Newton iterations. If Newton's iteration converges, two to four iterations are usual.
 const MAX_ITERATIONS: u32 = 8;
 
-/// Residual, in units of `settle_tol`, below which the iteration is limited by jumps of the period map.
+/// If Newton's iteration stops with a residual below this limit, jumps of the period map are the reason. The
+/// limit is in units of `settle_tol`.
 const JUMPS: f64 = 100.0;
 
 /// Factor on the tolerances of the next integration if the error is unknown or the orbit was not found.
@@ -98,13 +112,14 @@ const FINEST_RTOL: f64 = 1e-12;
 /// Largest number of repeated integrations for the accuracy of a row.
 const REFINEMENTS: u32 = 3;
 
-/// Smallest target residual of such a refinement.
+/// Smallest target residual if a row is computed again with tighter tolerances.
 const SMALLEST_GOAL: f64 = 1e-10;
 
-/// Largest difference between the rates of mirrored states in symmetric equations, relative to the largest rate.
+/// The equations count as symmetric if the rates of mirrored states differ by at most this fraction of the
+/// largest rate.
 const ASYMMETRY: f64 = 1e-9;
 
-/// Largest distance between the orbits of two tolerances, in units of the states' typical sizes.
+/// Largest distance between the orbits of a point at two tolerances, in units of the states' typical sizes.
 const ORBITS_DIFFER: f64 = 0.1;
 
 /// Result of a search: the row of a point, whose motion may have settled or not.
@@ -120,9 +135,9 @@ struct Search<'a, M: Model<N>, const N: usize> {
     solver: &'a SolverSettings,
     start: Start<M::Constants<f64>, N>,
     exchange: Rc<Exchange<SumsOf<M, N>, N>>,
-    /// Symmetry of the orbit, while it is assumed.
+    /// Symmetry of the orbit, or `None` if the search does not assume that the orbit is symmetric.
     symmetry: Option<Symmetry<M::Signals, N>>,
-    /// Sizes of the states. Absolute tolerances are multiples of them.
+    /// Sizes of the states. The absolute tolerances are multiples of these sizes.
     size: [f64; N],
     /// Factor on the requested tolerances.
     tolerance_factor: f64,
@@ -138,21 +153,21 @@ struct Search<'a, M: Model<N>, const N: usize> {
     rhs_evals_of_run: u64,
 }
 
-/// A nearby orbit.
+/// A state near an orbit, as the beginning of the chord iteration.
 #[derive(Clone, Copy)]
 struct Near<const N: usize> {
     orbit: Orbit<N>,
-    /// A part of the march that should lead to the orbit.
+    /// A part of the march. The search checks that this part of the march approaches the orbit.
     march: Marched<N>,
     /// Monodromy matrix of the row's orbit, if known: computed at the row's tolerance, close enough to the orbit.
     monodromy: Option<Matrix<N>>,
-    /// Residual before the last step, at the tolerance of the last iteration. For a march that has arrived, its last
-    /// change.
+    /// Residual before the last Newton or chord step, at the tolerance of this step. Without such a step, the
+    /// change of the state over the last marched period.
     residual: f64,
     /// Length of the last step, if it was made with `monodromy`.
     step: f64,
-    /// True if the march has settled there, and Newton's iteration cannot improve the orbit. It is then measured as
-    /// it is.
+    /// True if the march has settled on this orbit and Newton's iteration cannot improve the orbit. The
+    /// measures of this orbit are then computed without further steps.
     is_final: bool,
 }
 
@@ -184,13 +199,14 @@ struct Measured<T, const N: usize> {
 
 /// Reason for a row without orbit.
 enum NoOrbit<const N: usize> {
-    /// At these tolerances the jumps of the period map are too large near this orbit.
+    /// Near the orbit, the jumps of the period map are too large at the current tolerances. The variant
+    /// contains the last state of the iteration.
     Jumps(Orbit<N>),
     /// The search found no stable orbit that the march approaches, or a period could not be integrated.
     Failed,
 }
 
-/// Follows a point from `start` to its row.
+/// Searches for the orbit of a point, from the initial state in `start`, and returns the row of the point.
 ///
 /// `nearby` is true if the start is a given state, such as the orbit of a neighbouring point, and not rest.
 pub(super) fn settle<'a, M: Model<N>, const N: usize>(
@@ -237,7 +253,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Returns the row of a nearby orbit; `None` if there is no orbit of the row's tolerance close to it.
+    /// Returns the row of the orbit near a state. `None` if no orbit is found near this state at the
+    /// tolerance of the row.
     async fn settle_near(&mut self, mut near: Near<N>) -> Option<SearchResult<N>> {
         let mut last: Option<SearchResult<N>> = None;
         for refinement in 0..=REFINEMENTS {
@@ -277,10 +294,12 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         last.map(|last| self.with_costs(last))
     }
 
-    /// Finds the orbit of the point: marches until a nearby orbit is this orbit.
+    /// Integrates drive periods until Newton's iteration finds the orbit that the motion approaches, and
+    /// returns the row of this orbit.
     ///
-    /// `None` if the march fails, is exhausted, or settles on a subharmonic orbit. At the loose tolerance also if a
-    /// nearby orbit does not lead to an orbit of the row's tolerance.
+    /// `None` if an integration fails, if the largest number of periods is reached, or if the motion settles
+    /// on a subharmonic orbit. At the loose tolerance, `None` also if Newton's iteration leads to no orbit at
+    /// the tolerance of the row.
     async fn find(&mut self, at: Tolerance) -> Option<SearchResult<N>> {
         loop {
             self.march(at).await?;
@@ -340,8 +359,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Stops assuming symmetry if the equations are not symmetric at the state of the march, in contradiction to the
-    /// model.
+    /// Checks that the equations are symmetric at the current state of the march, as the model declares. If
+    /// the equations are not symmetric, the search integrates whole periods from then on.
     fn check_symmetry(&mut self) {
         let Some(Symmetry { centre, .. }) = self.symmetry else { return };
         let Start { constants: c, span, scale, .. } = &self.start;
@@ -362,8 +381,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         self.ending = Ending::Stopped;
     }
 
-    /// Returns the orbit on which the march has settled. Its state varies by more than the residual goal of Newton's
-    /// iteration.
+    /// Returns the orbit on which the march has settled. Newton's iteration did not reach its target
+    /// residual, because the state of this orbit varies by more than this residual.
     fn orbit_of_settled_march(&self, monodromy: Matrix<N>) -> Near<N> {
         let march = self.last_marched(self.goal);
         let orbit = Orbit { y: march.end, monodromy };
@@ -403,7 +422,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Some(())
     }
 
-    /// Runs Newton's iteration from the state of the march. The error contains the monodromy matrix there, if known.
+    /// Runs Newton's iteration from the current state of the march. If the iteration fails, the `Err` value
+    /// contains the monodromy matrix at this state, if this matrix is known.
     async fn iterate(&mut self, at: Tolerance) -> Result<Near<N>, Option<Matrix<N>>> {
         let (goal, error) = match at {
             Tolerance::Loose => (LOOSE_RESIDUAL.max(self.goal), LOOSE_RESIDUAL),
@@ -633,7 +653,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         if self.symmetry.is_some() { 2 } else { 1 }
     }
 
-    /// Integrates a period or half a period. `None`, with the ending stored, if that fails.
+    /// Integrates a period or half a period. If the integration fails, the function stores the reason in
+    /// `ending` and returns `None`.
     async fn period(&mut self, kind: Kind, begin: Option<Restart<N>>) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
         let halves = if begin.is_some_and(|begin| begin.span < self.start.span) { 1 } else { 2 };
         if begin.is_some() {
@@ -668,7 +689,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Start { constants: (), y: *y, span, scale: self.size, tolerance_factor, change: scale }
     }
 
-    /// Returns the factor on the tolerances of the row.
+    /// Returns the given tolerance divided by the tolerance of the row.
     fn factor(&self, at: Tolerance) -> f64 {
         match at {
             Tolerance::Loose => LOOSE_RTOL / self.rtol(),
@@ -686,7 +707,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         self.solver.settle_tol.max(MATRIX_RESIDUAL * self.rtol().sqrt())
     }
 
-    /// Returns the smallest factor on the tolerances.
+    /// Returns the smallest allowed factor on the requested tolerances.
     fn finest(&self) -> f64 {
         self.start.tolerance_factor * FINEST.max(FINEST_RTOL / self.solver.rtol).min(1.0)
     }
@@ -751,7 +772,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Returns the same result with the total costs of its point.
+    /// Returns a copy of the result with the total costs of the search, `cycles` and `rhs_evals`.
     fn with_costs(&self, mut settled: SearchResult<N>) -> SearchResult<N> {
         settled.row.cycles = self.cycles();
         settled.row.rhs_evals = self.rhs_evals;
