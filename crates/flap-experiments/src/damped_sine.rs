@@ -23,7 +23,7 @@ pub struct DampedSine {
 
 /// Returns the best fit of a damped sine to samples `interval` seconds apart.
 ///
-/// `None` if the samples cross zero fewer than three times, or if the fit does not converge.
+/// Returns `None` if the samples cross zero fewer than three times, or if the fit does not converge.
 pub fn fit(interval: f64, samples: &[f64]) -> Option<DampedSine> {
     let size = samples.iter().fold(0.0_f64, |size, sample| size.max(sample.abs()));
     let crossings = Crossings::of(samples)?;

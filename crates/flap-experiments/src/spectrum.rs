@@ -62,9 +62,9 @@ impl Spectrum {
     /// Returns at most `count` peaks, in falling order of height. A parabola through three bins gives frequency and
     /// amplitude.
     ///
-    /// A finite window adds side lobes and ripples around each peak. A local maximum is a peak only if it is higher
-    /// than the side lobes and ripples. Heights are relative to the minimum between the local maximum and each higher
-    /// peak.
+    /// A finite window adds side lobes and ripples around each peak. A local maximum is a peak only if it is
+    /// higher than the side lobes and ripples. The height of a local maximum is measured from the lowest
+    /// amplitude between this maximum and a higher peak.
     pub fn peaks(&self, count: usize) -> Vec<SpectrumPeak> {
         let largest = self.amplitudes.iter().fold(0.0_f64, |largest, amplitude| largest.max(*amplitude));
         let tops = self.amplitudes.windows(3).enumerate();

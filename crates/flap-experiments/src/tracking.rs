@@ -17,7 +17,8 @@ pub struct LeadingEdge {
 }
 
 impl LeadingEdge {
-    /// Returns the unit vector from root to tip; NaN if both coincide.
+    /// Returns the unit vector from the root to the tip of the leading edge. The vector is NaN if root and
+    /// tip coincide.
     fn direction(&self) -> [f64; 2] {
         let [x, y] = [self.tip[0] - self.root[0], self.tip[1] - self.root[1]];
         let length = libm::hypot(x, y);

@@ -145,8 +145,8 @@ impl Opened {
         })
     }
 
-    /// Returns true if a parameter has the value from the opened file: the design, the axes and the formulas do not
-    /// change it.
+    /// Returns true if a parameter has its value from the opened file, because the design, the axes and the
+    /// formulas do not change this value.
     fn is_as_opened(&self, index: usize, design: &Design, axes: &[Option<&str>]) -> bool {
         let name = self.plan.parameters()[index].name;
         !axes.contains(&Some(name))
@@ -213,7 +213,7 @@ impl Opened {
     /// Returns the plan of a grid file of the page, which is checked like every grid file.
     ///
     /// # Errors
-    /// [`Refused::Impossible`] with the first mistake in the grid file.
+    /// Returns [`Refused::Impossible`] with the first mistake in the grid file.
     pub(crate) fn plan_of(&self, grid: &str) -> Result<Plan, Refused> {
         parsed(&self.plan, grid, &self.models).map_err(|mistakes| match mistakes.first() {
             Some(first) => refused(first, self.plan.parameters()),
@@ -224,7 +224,7 @@ impl Opened {
     /// Returns the plan of one design.
     ///
     /// # Errors
-    /// [`Refused::Impossible`] with the first mistake in the grid file.
+    /// Returns [`Refused::Impossible`] with the first mistake in the grid file.
     pub(crate) fn design(&self, design: &Design) -> Result<Plan, Refused> {
         self.plan_of(&self.grid(design, None, None)?)
     }

@@ -5,7 +5,7 @@ use std::{env, fs, io};
 
 use xxhash_rust::xxh3::Xxh3Default;
 
-/// Packages whose code affects the bytes of rows.
+/// Packages whose code affects the exact bytes of the rows that flap computes.
 const PACKAGES: [&str; 8] =
     ["chacha20", "fearless_simd", "itoa", "libm", "nalgebra", "rand", "rand_core", "zmij"];
 
@@ -71,7 +71,8 @@ pub fn hash(folder: &Path, versions: &[String]) -> io::Result<u64> {
     Ok(hash.digest())
 }
 
-/// Adds the files in `folder` and its subfolders, with their relative names. Names use `/` on every system.
+/// Adds the files in `folder` and its subfolders, with their relative names. The relative names contain `/`
+/// between folders on every system.
 fn list(folder: &Path, name: &str, files: &mut Vec<(String, PathBuf)>) -> io::Result<()> {
     for entry in fs::read_dir(folder)? {
         let entry = entry?;

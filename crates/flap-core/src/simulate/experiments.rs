@@ -1,9 +1,9 @@
 //! Experiments on single points of a model: the implementation of [`Experiments`].
 //!
-//! A chirp is a drive whose frequency changes at a constant rate. flap integrates a chirp one cycle of the
-//! drive after another. Each cycle of a chirp begins at the drive phase zero, with the final frequency of the
-//! previous cycle. The measures of a cycle are therefore computed as for a drive period. The phase stays
-//! small, so the rounding errors of the phase stay small too.
+//! A chirp is a drive whose frequency changes at a constant rate. The motion during a chirp is integrated one
+//! cycle of the drive after another. Each cycle of a chirp begins at the drive phase zero, with the final
+//! frequency of the previous cycle. The measures of a cycle are therefore computed as for a drive period. The
+//! phase stays small, so the rounding errors of the phase stay small too.
 
 use core::ops::ControlFlow;
 

@@ -45,7 +45,7 @@ const SMALL: f64 = 1e-8;
 const TOLERANCE_FACTOR: f64 = 0.1;
 
 /// Value of `rtol` below which the errors of derivatives decrease more slowly than the errors of the
-/// measures. Below this value, the factor on the tolerances for derivatives becomes smaller.
+/// measures. If `rtol` is below this value, the integration for derivatives uses even tighter tolerances.
 const COARSE: f64 = 1e-6;
 
 /// Assumed relative error of an extremum of a signal, in units of the relative tolerance. Two extrema whose
@@ -62,8 +62,8 @@ const SLOPE_ERROR: f64 = 3.0;
 /// Largest component of (1 − M)⁻¹ at which flap reports derivatives. M is the monodromy matrix in units of
 /// the states' typical sizes.
 ///
-/// If a component of (1 − M)⁻¹ is larger, the orbit is so close to a fold that derivatives would have errors
-/// of 1e-4 and more.
+/// If a component of (1 − M)⁻¹ is larger, the orbit is so close to a fold that the errors of derivatives
+/// would exceed 1e-4.
 const LARGEST_RESPONSE: f64 = 1e3;
 
 /// Component of (1 − M)⁻¹ above which flap tests if the orbit is close to a fold. Close to a fold, a small
@@ -75,14 +75,14 @@ const LARGE_RESPONSE: f64 = 30.0;
 const DOUBT: f64 = 0.02;
 
 /// Largest relative difference between the backward and the forward difference of a measure without a kink.
-/// For a smooth measure, the relative difference is far smaller than this limit.
+/// If the measure is smooth, the backward and the forward difference differ by far less.
 const SMOOTH: f64 = 1e-3;
 
 /// Relative rounding error of a measure.
 const ROUNDING: f64 = 1e-13;
 
-/// A small change of the parameter values of a point. flap computes derivatives in the direction of this
-/// change.
+/// A small change of the parameter values of a point. Derivatives of the measures are computed in the
+/// direction of this change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// Parameter values after the change by `+size`, one for each parameter.
@@ -204,8 +204,8 @@ fn tolerance_factor(rtol: f64) -> f64 {
 /// Constants of the model and drive period (s) for changed parameter values.
 type Side<C> = (C, f64);
 
-/// Constants and drive periods after a change by `+size` and by `-size`. `None` if changed values are
-/// impossible or select another option than the point.
+/// Constants and drive periods after a change by `+size` and by `-size`. The value is `None` if the changed
+/// parameter values are impossible or select another option than the point.
 type Sides<C> = Option<[Side<C>; 2]>;
 
 /// Returns the constants and the drive periods after a change by `+size` and by `-size`.
@@ -290,8 +290,8 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         starts
     }
 
-    /// Returns the start of a period at the state `y`, and one further start for each component, in which
-    /// only this component of `y` is changed.
+    /// Returns the start of a period at the state `y`, and one further start for each component of `y`, which
+    /// changes only this component.
     fn around(&self, y: [f64; N]) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = vec![Start { y, ..*self.start }; N + 1];
         for i in 0..N {
@@ -303,7 +303,8 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
     /// Returns (1 − M)⁻¹ in units of the states' typical sizes. The monodromy matrix M is computed from
     /// `ends`, the results of the periods that begin [`around`](Self::around) a state.
     ///
-    /// `None` if the orbit is near a fold or beyond a fold. Beyond a fold, a Floquet multiplier is above 1.
+    /// Returns `None` if the orbit is near a fold or beyond a fold. Beyond a fold, a Floquet multiplier is
+    /// above 1.
     fn response(&self, ends: &[Repeated<(), N>]) -> Option<SMatrix<f64, N, N>> {
         let monodromy =
             SMatrix::<f64, N, N>::from_fn(|i, j| self.difference(&ends[0], &ends[j + 1], SMALL)[i]);

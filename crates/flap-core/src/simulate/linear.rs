@@ -17,8 +17,8 @@ pub(super) struct Lu<const N: usize> {
 }
 
 impl<const N: usize> Lu<N> {
-    /// Returns the LU decomposition of I − M for a monodromy matrix M. `None` if I − M is singular within
-    /// rounding errors or not finite.
+    /// Returns the LU decomposition of I − M for a monodromy matrix M. Returns `None` if I − M is singular
+    /// within rounding errors or not finite.
     pub(super) fn of_identity_minus(m: &Matrix<N>) -> Option<Lu<N>> {
         let mut matrix = identity();
         for i in 0..N {

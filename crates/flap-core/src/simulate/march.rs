@@ -41,8 +41,8 @@ pub(super) struct March<const N: usize> {
     /// Length in drive periods of the orbit on which the march has settled.
     period: Option<u32>,
     max_cycles: u32,
-    /// Number of marched drive periods at which Newton's iteration is tried next. `None` if Newton's
-    /// iteration is not used.
+    /// Number of marched drive periods at which Newton's iteration is tried next. The value is `None` if
+    /// Newton's iteration is not used.
     next_try: Option<u32>,
 }
 
@@ -131,8 +131,8 @@ impl<const N: usize> March<N> {
         self.strobe.cycles()
     }
 
-    /// Returns the change of the state over the last `periods` drive periods. NaN if the march has fewer
-    /// drive periods.
+    /// Returns the change of the state over the last `periods` drive periods. The result is NaN if the march
+    /// has fewer drive periods.
     pub(super) fn change(&self, periods: u32) -> f64 {
         self.strobe.change(periods)
     }

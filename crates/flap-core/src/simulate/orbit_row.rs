@@ -36,9 +36,9 @@ const LEAST: f64 = 5.0;
 /// If a motion crosses the switching surface more often than this in a period, the motion counts as sliding
 /// along the surface.
 ///
-/// A motion that does not slide crosses the switching surface twice in a period, or a few times more. When
-/// the tolerance decreases, the error of a sliding motion does not decrease with the order of the integration
-/// method.
+/// A motion that does not slide crosses the switching surface twice in a period, or a few times more. If the
+/// tolerance is reduced, the error of a sliding motion decreases more slowly than the order of the
+/// integration method predicts.
 pub(super) const MANY_SWITCHES: u64 = 16;
 
 /// The measured period of an orbit.

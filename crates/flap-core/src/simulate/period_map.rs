@@ -119,7 +119,7 @@ impl<const N: usize> Chord<N> {
 /// Returns the fixed point of a linear map. The map takes the state of `near` to `end`, and its derivative is
 /// the monodromy matrix of `near`.
 ///
-/// `None` if the linear system is singular or not finite.
+/// Returns `None` if the linear system is singular or not finite.
 pub(super) fn fixed_point<const N: usize>(
     near: &Orbit<N>,
     end: &[f64; N],

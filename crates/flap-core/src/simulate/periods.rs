@@ -40,13 +40,14 @@ pub(super) struct Request<const N: usize> {
 pub(super) struct PeriodEnd<T, const N: usize> {
     /// State.
     pub(super) y: [f64; N],
-    /// Largest magnitude of each state since the start of the run, for [`Kind::States`]. NaN for other kinds
-    /// of periods.
+    /// Largest magnitude of each state since the start of the run, for [`Kind::States`]. The magnitudes are
+    /// NaN for other kinds of periods.
     pub(super) largest: [f64; N],
-    /// Monodromy matrix in units of the states' typical sizes, for [`Kind::Responses`]. NaN for other kinds
-    /// of periods.
+    /// Monodromy matrix in units of the states' typical sizes, for [`Kind::Responses`]. The matrix contains
+    /// NaN for other kinds of periods.
     pub(super) monodromy: Matrix<N>,
-    /// Sums over the signals, for [`Kind::Means`] and [`Kind::Signals`]. `None` for other kinds of periods.
+    /// Sums over the signals, for [`Kind::Means`] and [`Kind::Signals`]. The sums are `None` for other kinds
+    /// of periods.
     pub(super) sums: Option<Box<T>>,
     /// Reason for the end of the integration, and the costs since the start of the run.
     pub(super) outcome: Outcome,

@@ -10,14 +10,14 @@ use crate::model::{Model, OverWings, SignalSet};
 pub struct Row {
     /// Result in one word.
     pub status: Status,
-    /// One value for each column of the model. Empty if flap found no orbit of one drive period.
+    /// One value for each column of the model. The list is empty if flap found no orbit of one drive period.
     pub measures: Vec<f64>,
     /// Number of integrated drive periods, including the periods for the measures.
     pub cycles: u32,
     /// Largest change of a state over the last period of the orbit, in units of the state's typical size.
     ///
     /// For a symmetric orbit, the residual is the distance between the initial state and the mirrored state
-    /// half a period later. NaN if no drive period was completed.
+    /// half a period later. The residual is NaN if no drive period was completed.
     pub residual: f64,
     /// Length of the orbit in drive periods: 1, or 2 and more for a subharmonic orbit. The length is 0 if no
     /// orbit was found.
@@ -26,19 +26,19 @@ pub struct Row {
     ///
     /// After many orbits, a small change of the state grows or decays by this factor per orbit.
     ///
-    /// The error of this factor is larger than the errors of the measures, see `docs/models/numerics.md`. NaN
-    /// if no orbit was found, or if the wing is at rest and the factor is not clearly above 1. In still air,
-    /// the drag on a wing at rest has no linear part, so only rounding errors decide if the factor is below
-    /// 1.
+    /// The error of this factor is larger than the errors of the measures, see `docs/models/numerics.md`. The
+    /// factor is NaN if no orbit was found, or if the wing is at rest and the factor is not clearly above 1.
+    /// In still air, the drag on a wing at rest has no linear part, so only rounding errors decide if the
+    /// factor is below 1.
     pub floquet_max: f64,
     /// Estimate of the largest relative integration error of the model's [principal
     /// measures](crate::model::Principal), such as stroke, pitch, lift and power.
     ///
-    /// See `docs/models/numerics.md`. Infinite if the error cannot be estimated, and NaN if the row has no
-    /// measures.
+    /// See `docs/models/numerics.md`. The estimate is infinite if the error cannot be estimated, and NaN if
+    /// the row has no measures.
     pub error_estimate: f64,
-    /// State at the end of the last drive period. If flap found an orbit, this state is on the orbit. Empty
-    /// if no drive period was completed.
+    /// State at the end of the last drive period. If flap found an orbit, this state is on the orbit. The
+    /// list is empty if no drive period was completed.
     pub state: Vec<f64>,
     /// Number of evaluations of the right-hand side by the integrator.
     pub rhs_evals: u64,
@@ -69,7 +69,7 @@ impl Row {
         Row { reason: Some(reason.to_string()), ..Row::empty(Status::Invalid) }
     }
 
-    /// Returns true if motions near the orbit approach the orbit. `None` if the row has no orbit.
+    /// Returns true if motions near the orbit approach the orbit. Returns `None` if the row has no orbit.
     pub fn stable(&self) -> Option<bool> {
         match (self.period, self.floquet_max.is_nan()) {
             (0, _) => None,
@@ -86,8 +86,8 @@ impl Row {
 pub enum Status {
     /// The motion has settled on an orbit of one drive period.
     Periodic,
-    /// The row describes an unstable orbit of one drive period. No motion settles on an unstable orbit. flap
-    /// finds unstable orbits when it follows a branch, and the rows of these orbits have measures.
+    /// The row describes an unstable orbit of one drive period. No motion settles on an unstable orbit. The
+    /// continuation of a branch finds unstable orbits, and the rows of these orbits have measures.
     Unstable,
     /// The motion has settled on an orbit of two or more drive periods.
     Subharmonic,

@@ -20,8 +20,8 @@ pub struct SolverSettings {
     pub max_steps: u32,
     /// Largest allowed [`error_estimate`](super::Row::error_estimate) and energy audit of a row.
     ///
-    /// If the error estimate or the energy audit is larger, flap computes the row again with smaller
-    /// tolerances, at most a few times.
+    /// If the error estimate or the energy audit of a row exceeds `accuracy`, flap computes the row again
+    /// with smaller tolerances. The number of repetitions is limited.
     pub accuracy: f64,
     /// True to use Newton's iteration on the period map to find the orbit that a motion approaches.
     ///

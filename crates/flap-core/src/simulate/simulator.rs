@@ -144,7 +144,7 @@ pub trait Gradients: Sync {
     /// that begins at `state`.
     ///
     /// `state` is for example [`Row::state`] of a periodic row. For each change, flap integrates three
-    /// periods. Once, flap integrates N + 3 further periods, where N is the number of states. Each of these
+    /// periods. In addition, flap integrates N + 3 periods, where N is the number of states. Each of these
     /// periods has about 1.6 times as many steps as a period at the solver's tolerances.
     ///
     /// # Errors

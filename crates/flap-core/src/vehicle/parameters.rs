@@ -103,8 +103,8 @@ impl Own {
 type Parameters<'a> = Vec<Parameter<'a>>;
 
 self_cell!(
-    /// All parameters of a vehicle. The owner stores the names and descriptions of the parameters that the
-    /// model does not have.
+    /// All parameters of a vehicle. The field `owner` stores the names and descriptions of the parameters
+    /// that the vehicle adds to the parameters of the model.
     struct Named {
         owner: Vec<Own>,
         #[covariant]
