@@ -1,4 +1,5 @@
-//! Columns of rows that the plan adds to the columns of the model: measures and derivatives of the plan.
+//! Computes the columns that a grid file adds to the columns of the model: measures under `[measure]`, and
+//! derivatives.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Change, Interrupt, NoSlope, Point, PointRun, Row};
@@ -8,14 +9,14 @@ use crate::derivative::{Per, gap_code, is_least, moved, size};
 use crate::plan::Plan;
 use crate::plan::gradient::Gradient;
 
-/// Relative change for derivatives of the measures of the plan, which need not be as small as for the model's
-/// measures.
+/// To compute derivatives of the formulas under `[measure]`, flap changes a parameter by this fraction of its
+/// size. The fraction is larger than [`Change::SHARE`], so that rounding errors have less effect.
 const OWN_SHARE: f64 = 1e-5;
 
-/// Adds the measures and derivatives of the plan to `row`, which the model has computed for `point`.
+/// Adds the measures of the plan and the derivatives to `row`. The model has computed `row` for `point`.
 ///
-/// The last added value contains the reasons for missing derivatives, as a number. Returns false if the run was
-/// interrupted.
+/// If the plan has derivatives, the last added value is a number that encodes the reasons for missing
+/// derivatives. Returns false if the run was interrupted.
 pub fn add_columns(
     plan: &Plan,
     instructions: Backend,
@@ -54,15 +55,15 @@ pub fn add_columns(
     true
 }
 
-/// Returns the size to which relative changes of a parameter refer; `None` if the size is unknown. A parameter with the
-/// value zero has no relative change.
+/// Returns the size by which changes of a parameter are divided, or `None` if this size is unknown. If the
+/// value of the parameter is zero and derivatives refer to a change of 1 %, the result is also `None`.
 fn size_at(plan: &Plan, per: Per, point: &Point, parameter: usize) -> Option<f64> {
     let value = standing(plan.parameters(), &point.values, parameter);
     let has_shares = per == Per::Unit || value != 0.0;
     size(plan.simulator(), &point.values, parameter).filter(|_| has_shares)
 }
 
-/// Returns the values of a point with one parameter increased by a fraction of its size.
+/// Returns the parameter values of a point after one parameter is increased by `share` times its size.
 fn changed(plan: &Plan, per: Per, point: &Point, parameter: usize, share: f64) -> Vec<f64> {
     let size = size_at(plan, per, point, parameter);
     let shared = standing(plan.parameters(), &point.values, parameter);
@@ -71,7 +72,7 @@ fn changed(plan: &Plan, per: Per, point: &Point, parameter: usize, share: f64) -
     })
 }
 
-/// Returns the derivatives in the order of their columns.
+/// Returns the values of the columns with derivatives, in the order of the columns.
 fn derivatives(
     plan: &Plan,
     gradient: &Gradient,
@@ -100,8 +101,8 @@ fn derivatives(
     pairs.collect()
 }
 
-/// Returns the derivatives of the measures of the plan with respect to one parameter, from derivatives of the model's
-/// measures.
+/// Returns the derivatives of the measures under `[measure]` with respect to one parameter. `slopes` contains
+/// the derivatives of the model's measures.
 fn slopes_of_own_measures(
     plan: &Plan,
     per: Per,

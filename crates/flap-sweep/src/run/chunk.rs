@@ -1,7 +1,8 @@
-//! A chunk: the rows of a range of points, computed by another process.
+//! A chunk contains the rows of consecutive points that another process has computed.
 //!
-//! A cluster passes ranges of a plan to its workers. Each worker computes the rows of a range with [`chunk`]. The
-//! requesting process writes the rows in order, with the same bytes as a run on one machine.
+//! On a cluster, each worker process computes the rows of one range of points with [`chunk`]. The process
+//! that started the workers writes all rows in the order of the points. The bytes of the output are the same
+//! as after a run on one machine.
 
 use std::ops::Range;
 
@@ -12,21 +13,22 @@ use super::points::{Outcome, rows_of};
 use super::{Run, RunError, RunOptions};
 use crate::plan::Plan;
 
-/// Outcomes of the points of a range.
+/// The outcomes of consecutive points: rows, and conditions that excluded points.
 #[derive(Debug, Serialize, Deserialize)]
 pub struct Chunk {
     identity: Identity,
-    /// Position of the first point among the selected points.
+    /// Position of the chunk's first point in the list of the plan's selected points.
     begin: u64,
     outcomes: Vec<Outcome>,
 }
 
-/// Runs the points at the given `positions` among the selected points.
+/// Computes the points at the given `positions` in the list of the plan's selected points.
 ///
-/// `stop` is called several times a second. After `stop` returns true, the chunk contains only the first points.
+/// `stop` is called several times a second. If `stop` returns true, the computation ends early, and the last
+/// points of the range are missing in the chunk.
 ///
 /// # Errors
-/// [`RunError`] if a worker fails.
+/// [`RunError`] if a worker thread panics or cannot be started, or if the model returns wrong rows.
 pub fn chunk(
     plan: &Plan,
     options: &RunOptions,
@@ -46,14 +48,16 @@ pub fn chunk(
 }
 
 impl Chunk {
-    /// Returns the chunk as a part of a larger plan. The points of the chunk begin at position `begin` of the larger plan.
+    /// Returns the chunk for use in a larger plan, in which the first point of the chunk has the position
+    /// `begin`.
     pub fn beginning_at(self, begin: u64) -> Chunk {
         Chunk { begin, ..self }
     }
 
-    /// Returns the chunk as bytes, for a process with the same build of flap.
+    /// Returns the chunk as bytes, which a process with the same build of flap can read.
     ///
-    /// The name of the build comes first, because another build may use another format for the rest.
+    /// The bytes begin with the hash of the build, because the format of the remaining bytes may differ
+    /// between builds.
     ///
     /// # Errors
     /// [`RunError::Chunk`] if there is not enough memory.
@@ -62,10 +66,10 @@ impl Chunk {
         postcard::to_extend(self, bytes).map_err(|error| RunError::Chunk(error.to_string()))
     }
 
-    /// Parses the bytes of [`Chunk::to_bytes`].
+    /// Reads a chunk from bytes that [`Chunk::to_bytes`] has written.
     ///
     /// # Errors
-    /// [`RunError::Chunk`] if the bytes are malformed or belong to another build of flap.
+    /// [`RunError::Chunk`] if the bytes are malformed, or if another build of flap has written the bytes.
     pub fn from_bytes(bytes: &[u8]) -> Result<Chunk, RunError> {
         let ours = identity::build();
         match bytes.split_at_checked(ours.len()) {
@@ -78,11 +82,12 @@ impl Chunk {
         }
     }
 
-    /// Returns the outcomes of the points of the chunk. The points of the chunk must be points of `plan` beginning at
-    /// position `next`.
+    /// Returns the outcomes of the points in the chunk. The chunk must come from the same `plan`, and its
+    /// first point must have the position `next`.
     ///
     /// # Errors
-    /// [`RunError::Chunk`] if the chunk contains other points.
+    /// [`RunError::Chunk`] if the chunk is empty, has different points, or comes from a different plan, build
+    /// or arithmetic.
     pub fn outcomes(self, plan: &Plan, options: &RunOptions, next: u64) -> Result<Vec<Outcome>, RunError> {
         let differences = Identity::of(plan, options).differences(&self.identity);
         if !differences.is_empty() {

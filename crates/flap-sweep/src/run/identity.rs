@@ -1,4 +1,5 @@
-//! Identity of rows: everything that determines the bytes of rows. Rows with equal identity may be in the same file.
+//! The identity of rows is the set of all inputs and settings that determine the bytes of the rows. A file
+//! may contain rows of several runs only if the identities of the runs are equal.
 
 use std::sync::LazyLock;
 
@@ -11,9 +12,11 @@ use crate::notation::text;
 use crate::plan::selection::Selection;
 use crate::plan::{Along, Plan, PointsFile, Source};
 
-/// Returns the build of flap: a hash of the sources that determine the bytes of rows, in hexadecimal digits.
+/// Returns the hash of the source files that determine the bytes of rows, in hexadecimal digits. flap uses
+/// the hash of its source files as the name of the build.
 ///
-/// Builds of the same version may compute different rows. Builds of the same sources compute equal rows.
+/// Two builds with the same version number may compute different rows. Two builds from the same source files
+/// compute equal rows.
 pub fn build() -> &'static str {
     static BUILD: LazyLock<String> = LazyLock::new(|| {
         let sources = [flap_core::SOURCES, env!("FLAP_SOURCES")].join(" ");
@@ -22,32 +25,33 @@ pub fn build() -> &'static str {
     &BUILD
 }
 
-/// Everything that determines the bytes of the rows of a run.
+/// All inputs and settings that determine the bytes of the rows of a run.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Identity {
     /// Version of flap.
     pub flap: String,
-    /// Build of flap, see [`build`].
+    /// Hash of flap's source files, see [`build`].
     pub build: String,
-    /// Class of arithmetic.
+    /// Name of the floating-point arithmetic. All instruction sets with this arithmetic compute the same
+    /// bits.
     pub arithmetic: String,
     /// Hash of the grid file's text.
     pub grid: String,
     /// Hash of the texts of the grid's devices, if the grid has devices.
     pub devices: Option<String>,
-    /// Hash of the file that lists the points of the sample, if there is such a file.
+    /// Hash of the file from which the points of the sample are read, if the sample comes from a file.
     pub points_file: Option<String>,
-    /// Description of the selected points.
+    /// Text that describes which points of the plan are selected.
     pub selection: String,
-    /// Followed parameter, in words with a hash of its values and of the parameters of all designs; `None` if the
-    /// rows belong to points.
+    /// For response curves: name of the followed parameter, number of its values, and a hash of these values
+    /// and of the other parameters. `None` if the rows belong to points and not to responses.
     pub followed: Option<String>,
     /// Solver settings.
     pub solver: SolverSettings,
 }
 
 impl Identity {
-    /// Returns the identity of the rows of `plan`.
+    /// Returns the identity of the rows that `plan` and `options` give.
     pub fn of(plan: &Plan, options: &RunOptions) -> Identity {
         Identity {
             flap: env!("CARGO_PKG_VERSION").to_owned(),
@@ -62,12 +66,13 @@ impl Identity {
         }
     }
 
-    /// Returns true if the same build of flap computed the rows of `other`, with the same arithmetic.
+    /// Returns true if both identities have the same version of flap, the same build and the same arithmetic.
     pub fn is_by_program_of(&self, other: &Identity) -> bool {
         self.flap == other.flap && self.build == other.build && self.arithmetic == other.arithmetic
     }
 
-    /// Returns descriptions of the differences to `other`. The list is empty if the rows are equal.
+    /// Returns a description of each difference between this identity and `other`. If the list is empty, both
+    /// identities give equal rows.
     pub fn differences(&self, other: &Identity) -> Vec<String> {
         let mut differences = Vec::new();
         if self.grid != other.grid {
@@ -106,13 +111,14 @@ impl Identity {
     }
 }
 
-/// Returns the hash of the texts of devices; `None` if there are no devices.
+/// Returns a hash for the text of each device, separated by spaces. Returns `None` if there are no devices.
 pub(crate) fn devices(devices: &[Source]) -> Option<String> {
     let hashes: Vec<String> = devices.iter().map(|device| text::hash(&device.text)).collect();
     (!hashes.is_empty()).then(|| hashes.join(" "))
 }
 
-/// Returns a description of the selected points. Listed points may be points that a refinement added.
+/// Returns a text that describes which points of the plan are selected. If the selection is a list, the text
+/// also describes the points that a refinement added.
 fn selection(plan: &Plan) -> String {
     let selection = plan.selection().to_string();
     if !matches!(plan.selection(), Selection::Listed(_)) || plan.added().is_empty() {
@@ -122,9 +128,10 @@ fn selection(plan: &Plan) -> String {
     format!("{selection}, {} added points ({:016x})", plan.added().len(), xxh3_64(&bytes))
 }
 
-/// Returns a description of the followed parameter.
+/// Returns a text that describes the followed parameter of a response.
 ///
-/// The command line may set parameters that the grid file does not set, so the hash also contains these parameters.
+/// The command line may set parameters that are not in the grid file. The hash in the text therefore covers
+/// the values of all parameters.
 fn followed(plan: &Plan, along: &Along) -> String {
     let base = plan.base().iter().map(|value| value.in_point());
     let numbers = along.values.iter().copied().chain([along.tolerance]).chain(base);

@@ -1,11 +1,13 @@
-//! The parallel runner, which runs units of work on all cores and returns their outcomes in order.
+//! The parallel runner computes units of work on all cores and returns the outcomes in the order of the
+//! units.
 //!
-//! A unit of work is a point of a plan with its row, or a design with the rows of its response. Each worker integrates
-//! one set of lanes for the whole run, so its lanes stay full until the end of the run. Units of work finish in any
-//! order.
+//! A unit of work is the computation of one row for one point, or of all rows of the response of one design.
+//! Each worker thread fills a free lane with its next unit of work, so all lanes stay full until the end of
+//! the run. Units of work finish in any order.
 //!
-//! A window of limited size brings the outcomes into order. Memory therefore does not grow with the number of units of
-//! work, and the output does not depend on the number of threads.
+//! A buffer of limited size, the window, stores finished outcomes until all earlier outcomes are finished.
+//! The memory therefore does not grow with the number of units of work. The output does not depend on the
+//! number of threads.
 //!
 //! ```no_run
 //! # use flap_sweep::{files::csv_sink::CsvSink, plan::Plan, run::{self, RowWriter, RunError, RunOptions, Summary}, table::layout::Layout};
@@ -19,11 +21,12 @@
 //! # }
 //! ```
 //!
-//! - [`rows`]: the rows of a plan as a [`Run`], on threads (`workers`) with a `queue`.
-//! - [`alone`]: the rows of a plan on the calling thread.
-//! - [`Chunk`]: rows computed by another process.
-//! - [`RowWriter`]: writes rows to a [`Sink`] and counts them in a [`Summary`].
-//! - [`identity`]: settings and build that determine the bytes of rows.
+//! - [`rows`] computes the rows of a plan on several threads and returns a [`Run`]. The threads (module
+//!   `workers`) take the points from a queue (module `queue`).
+//! - [`alone`] computes the rows of a plan on the thread of the caller.
+//! - [`Chunk`] contains rows that another process has computed.
+//! - [`RowWriter`] writes rows to a [`Sink`], and counts the written rows in a [`Summary`].
+//! - [`identity`] describes the inputs and settings that determine the bytes of rows.
 
 use std::io;
 use std::num::NonZeroUsize;
@@ -49,29 +52,32 @@ pub use workers::Run;
 pub(crate) use workers::Worker;
 pub use writer::{RowWriter, Sink, Written};
 
-/// Options of a run. Only the arithmetic class of the instruction set changes the output; all other options have no
-/// effect on the output.
+/// Options of a run. The output depends only on the arithmetic of the instruction set, and not on the other
+/// options.
 #[derive(Clone, Copy, Debug)]
 pub struct RunOptions {
-    /// Instruction set of the lanes.
+    /// SIMD instruction set with which the lanes are computed.
     pub instructions: Backend,
     /// Number of worker threads.
     pub threads: NonZeroUsize,
-    /// Largest number of rows between the last returned row and the last started point.
+    /// Largest number of points that may be computed ahead of the last returned row.
     ///
-    /// A slow point delays the rows after it. With a wider window, the other points can continue longer while a slow
-    /// point runs. A row of 40 measures takes about half a kilobyte.
+    /// A slow point delays the rows of all later points. With a larger window, the computation of later
+    /// points can continue longer while a slow point is computed. A row of 40 measures needs about half a
+    /// kilobyte of memory.
     pub window: usize,
-    /// Time for running points after the run is stopped. Points that take longer than this time are discarded.
+    /// After a request to stop, flap finishes the points whose computation has begun, if they need no more
+    /// than this time. flap abandons the points whose computation takes longer.
     pub grace: Duration,
 }
 
-/// Default time for running points after a stop. The time is long enough for ordinary points, and less than a second
-/// including overhead.
+/// Default of [`RunOptions::grace`]. The grace time is long enough for ordinary points, and a stop still
+/// takes less than a second in total.
 const GRACE: Duration = Duration::from_millis(400);
 
 impl RunOptions {
-    /// Returns the default options with this number of threads, or with a thread per core for `None`.
+    /// Returns the default options with the given number of threads. If `threads` is `None`, each core has
+    /// one thread.
     pub fn with_threads(threads: Option<NonZeroUsize>) -> RunOptions {
         let default = RunOptions::default();
         RunOptions { threads: threads.unwrap_or(default.threads), ..default }
@@ -87,16 +93,19 @@ impl Default for RunOptions {
     }
 }
 
-/// Progress of a run, in points of a sweep or designs of a response.
+/// Progress of a run, as numbers of points. In a run of responses, the progress counts designs instead of
+/// points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Number of points that have run or are excluded, even if their rows have not been returned yet.
+    /// Number of points that are computed or excluded. The number of finished points includes points whose
+    /// rows have not been returned yet.
     pub finished: u64,
-    /// Number of points to run in total.
+    /// Number of all selected points.
     pub points: u64,
 }
 
-/// Error that ends a run. The rows that were written before the error are complete and in order.
+/// An error that ends a run. The rows that were written before the error are complete and in the order of the
+/// points.
 #[derive(Debug, thiserror::Error)]
 pub enum RunError {
     /// Rows could not be written.
@@ -105,16 +114,17 @@ pub enum RunError {
     /// The threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(#[source] io::Error),
-    /// The model violated its contract, which is a bug in the program.
+    /// The model returned a wrong number of measures, or rows for wrong points. An error of the kind `Model`
+    /// is caused by a bug in the program of the model.
     #[error("bug in the model: {0}")]
     Model(String),
-    /// Rows from another process do not belong to the run.
+    /// Rows from another process are not the expected rows of this run.
     #[error("rows of a worker do not belong to this run: {0}")]
     Chunk(String),
-    /// Fetching rows from other processes failed.
+    /// Rows from other processes cannot be fetched.
     #[error("rows cannot be fetched: {0}")]
     Fetch(String),
-    /// A worker panicked, which is a bug in the program.
+    /// A worker thread panicked. A panic is a bug in the program.
     #[error("a worker panicked: {0}")]
     Panic(String),
 }

@@ -1,4 +1,5 @@
-//! Rows of a plan: one row for each point, with the measures and derivatives of the plan.
+//! Computes the rows of a plan: one row for each point, with the measures and derivatives that the grid file
+//! adds.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -10,23 +11,24 @@ use super::added_columns::add_columns;
 use super::{Run, RunError, RunOptions, Worker};
 use crate::plan::{Admission, Plan};
 
-/// Result of running a point, or a design with a curve.
+/// The result for a point, or for a design whose response curve is computed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Outcome<T = Row> {
-    /// A row of a point, or the rows of a curve.
+    /// The row of a point, or the rows of a response curve.
     Ran(T),
-    /// The point does not satisfy the conditions with these indices, so the point has no row.
+    /// The point has no row, because the point does not satisfy the conditions with these indices.
     Excluded(Vec<usize>),
 }
 
-/// Returns the rows of the selected points of `plan` beginning at position `first`, in the order of the points.
+/// Returns the rows of the selected points of `plan`, in the order of the points. The rows begin with the
+/// selected point at position `first`.
 ///
-/// To resume a run, begin after the finished points.
+/// To resume a run, set `first` to the number of points that are already finished.
 pub fn rows(plan: &Plan, options: &RunOptions, first: u64) -> Run<Outcome> {
     rows_of(plan, options, first..plan.selected())
 }
 
-/// Returns the rows of the points at the given positions among the selected points.
+/// Returns the rows of the points at the given `positions` in the list of selected points.
 pub(super) fn rows_of(plan: &Plan, options: &RunOptions, positions: Range<u64>) -> Run<Outcome> {
     let few = (positions.end - positions.start).div_ceil(options.threads.get() as u64) <= FEW;
     let (plan, run_options) = (Arc::new(plan.clone()), *options);
@@ -40,10 +42,12 @@ pub(super) fn rows_of(plan: &Plan, options: &RunOptions, positions: Range<u64>) 
     })
 }
 
-/// Returns the rows of the selected points of `plan`, computed one after another on the calling thread, on scalars.
+/// Computes the rows of the selected points of `plan` one after another on the thread of the caller, with
+/// scalar arithmetic.
 ///
-/// The rows equal the rows of [`rows`]. For a few points, computation without lanes is faster, because flap starts no
-/// threads and no lanes stay empty. The iterator ends when the run is `interrupted`.
+/// The rows have the same bytes as the rows of [`rows`]. For a few points this function is faster than
+/// [`rows`], because no threads are started and no lanes are empty. The iterator ends when the function
+/// `interrupted` returns true.
 pub fn alone<'a>(
     plan: &'a Plan,
     options: &'a RunOptions,
@@ -63,7 +67,8 @@ pub fn alone<'a>(
     })
 }
 
-/// Returns the point at `position` among the selected points, or the outcome of the point if the point is not run.
+/// Returns the selected point at `position`. If a condition excludes the point or its parameter values are
+/// impossible, the error value contains the outcome of the point.
 fn taken(plan: &Plan, position: u64) -> Result<Point, Outcome> {
     let point = plan.selected_point(position);
     match plan.judge(&point.values) {
@@ -74,8 +79,8 @@ fn taken(plan: &Plan, position: u64) -> Result<Point, Outcome> {
     }
 }
 
-/// Returns the outcome of a point with the row of the model; `None` if the run was interrupted. The error is a mistake
-/// of the model.
+/// Adds the columns of the plan to the row that the model computed for a point. Returns `None` if the run was
+/// interrupted. The error value describes a mistake in the program of the model.
 fn completed(
     plan: &Plan,
     options: &RunOptions,
@@ -98,10 +103,11 @@ fn completed(
     Ok(Some(Outcome::Ran(row)))
 }
 
-/// Largest number of points per thread for which scalars are faster than lanes, most of which would stay empty.
+/// Up to this number of points per thread, scalar arithmetic is faster than lanes, because most lanes would
+/// be empty.
 const FEW: u64 = 2;
 
-/// The points of a plan as jobs of a model.
+/// Passes the points of a plan to the model, and receives the rows that the model computes.
 struct Points<'a, 'q> {
     plan: &'a Plan,
     options: &'a RunOptions,
@@ -109,7 +115,7 @@ struct Points<'a, 'q> {
 }
 
 impl Points<'_, '_> {
-    /// Runs points one after another on scalars.
+    /// Computes points one after another with scalar arithmetic.
     fn run_singly(&mut self) {
         while let Some(point) = self.next(true) {
             let cancelled = || self.worker.is_cancelled();

@@ -1,14 +1,15 @@
-//! Queue between workers and the thread that collects outcomes: units of work to run, outcomes in order, and the end of
-//! the run.
+//! The queue assigns units of work to worker threads. One thread collects the outcomes of the units from the
+//! queue, in the order of the units.
 //!
-//! The queue cannot deadlock, for the following reasons. A worker waits only while it has no unit of work and the
-//! window is full. If the next outcome is present, collecting this outcome makes room in the window. If the next
-//! outcome is missing, its unit of work is running on another worker, which does not wait. A worker leaves the queue
-//! when it ends, also after a panic. If a worker ends with unfinished units of work, the run fails. Collecting waits
-//! only while there are workers, and a dropped run aborts its workers.
+//! The queue cannot deadlock, for the following reasons. A worker thread waits only if the thread has no
+//! unfinished unit of work and the window is full. If the next outcome is in the window, the collecting
+//! thread removes the outcome, and the window has room again. If the next outcome is missing, another worker
+//! is computing it, and this worker does not wait. Each worker calls `leave` at its end, even after a panic.
+//! If a worker ends before its units of work are finished, the run fails. The collecting thread waits only
+//! while at least one worker runs. When a run is dropped, its workers are aborted.
 //!
-//! After a stop, workers have a short time to finish their units of work. Units of work that still run after the short
-//! time are discarded.
+//! After a stop, workers have a short time to finish their units of work. Units of work that are not finished
+//! after this time are discarded.
 
 use std::collections::VecDeque;
 use std::ops::Range;
@@ -18,42 +19,44 @@ use std::time::{Duration, Instant};
 
 use super::{RunError, RunOptions};
 
-/// Shortest and longest time for which the collection of a batch waits for outcomes.
+/// Lower and upper limit of the time for which [`Queue::next_batch`] waits for outcomes.
 const TURN: [Duration; 2] = [Duration::from_millis(10), Duration::from_millis(100)];
 
-/// Number of available outcomes at which the collection of a batch ends early.
+/// If the window contains this number of outcomes, [`Queue::next_batch`] does not wait for more outcomes.
 const BATCH: usize = 64;
 
-/// Largest number of outcomes in a batch. The number is limited so that the window soon has room for new units of work.
+/// Largest number of outcomes in a batch. The size of a batch is limited so that the window soon has room for
+/// new units of work.
 const MOST_AT_ONCE: usize = 1024;
 
-/// Units of work to run, and their outcomes.
+/// The units of work of a run, and the outcomes of finished units.
 pub(super) struct Queue<T> {
-    /// True if no further units of work are assigned to workers.
+    /// True after a request to stop: workers receive no further units of work.
     stop: AtomicBool,
-    /// Time for running units after a stop.
+    /// Time within which workers may finish their units of work after a stop.
     grace: Duration,
-    /// True if running units of work are discarded.
+    /// True if workers must abandon their unfinished units of work.
     cancelled: AtomicBool,
     state: Mutex<State<T>>,
-    /// Signals workers that the window has room, or that the run has ended.
+    /// Notifies waiting workers that the window has room or that the run has ended.
     room: Condvar,
-    /// Signals the collecting thread that there are outcomes, or that the workers have ended.
+    /// Notifies the collecting thread that outcomes are available or that a worker has ended.
     outcomes: Condvar,
 }
 
 struct State<T> {
     window: Window<T>,
     workers: usize,
-    /// True if the run was aborted: no units of work are assigned, and outcomes are discarded.
+    /// True if the run was aborted: workers receive no further units of work, and the outcomes of running
+    /// units are discarded.
     aborted: bool,
-    /// Time at which the request to stop was detected.
+    /// Time at which the collecting thread detected the request to stop.
     stopped: Option<Instant>,
     failure: Option<RunError>,
 }
 
 impl<T> Queue<T> {
-    /// Returns the queue of the units of work `units` with the given options.
+    /// Returns a queue that assigns the units of work with the numbers `units`.
     pub(super) fn new(units: Range<u64>, options: &RunOptions, workers: usize) -> Queue<T> {
         let (window, grace) = (Window::new(units, options.window), options.grace);
         let state = State { window, workers, aborted: false, stopped: None, failure: None };
@@ -67,12 +70,14 @@ impl<T> Queue<T> {
         }
     }
 
-    /// The code that holds the lock leaves a valid state even if the code panics, so a poisoned lock is usable.
+    /// Locks the state. The state stays valid even if a thread panics while it holds the lock. The function
+    /// `lock` therefore ignores that a lock is poisoned.
     fn lock(&self) -> MutexGuard<'_, State<T>> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Returns the next unit of work to run. If `may_wait` is false, returns `None` for a full window.
+    /// Assigns the next unit of work and returns its number. If the window is full and `may_wait` is false,
+    /// the function returns `None`. `None` also means that no units are left or that the run has ended.
     pub(super) fn next(&self, may_wait: bool) -> Option<u64> {
         let mut state = self.lock();
         loop {
@@ -91,7 +96,7 @@ impl<T> Queue<T> {
         }
     }
 
-    /// Receives the outcome of a unit of work.
+    /// Stores the outcome of the unit of work with the number `index`.
     pub(super) fn done(&self, index: u64, outcome: T) {
         let mut state = self.lock();
         if state.aborted {
@@ -109,7 +114,7 @@ impl<T> Queue<T> {
         }
     }
 
-    /// Records the end of a worker.
+    /// Records that a worker thread has ended.
     pub(super) fn leave(&self, outcome: Result<(), RunError>) {
         let mut state = self.lock();
         state.workers -= 1;
@@ -121,27 +126,28 @@ impl<T> Queue<T> {
         self.outcomes.notify_one();
     }
 
-    /// Returns true if running units of work must be discarded without outcomes.
+    /// Returns true if workers must abandon their unfinished units of work, which then have no outcomes.
     pub(super) fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
     }
 
-    /// Stops assigning units.
+    /// Requests a stop: workers receive no further units of work.
     pub(super) fn stop(&self) {
         self.stop.store(true, Ordering::Relaxed);
     }
 
-    /// Ends the workers: no units of work are assigned, and outcomes are discarded.
+    /// Ends all workers. The outcomes of unfinished units of work are discarded.
     pub(super) fn abort(&self) {
         self.lock().aborted = true;
         self.cancelled.store(true, Ordering::Relaxed);
         self.room.notify_all();
     }
 
-    /// Records that the last batch is processed, and waits for more outcomes, at most for [`TURN`].
+    /// Records that the rows of the last batch are written, and waits a short time for more outcomes (see
+    /// [`TURN`]).
     ///
-    /// Returns the outcomes and the number of finished units of work; `None` if all workers have ended and all outcomes
-    /// were returned.
+    /// Returns the new outcomes and the number of all finished units of work. Returns `None` if all workers
+    /// have ended and no outcomes are left.
     pub(super) fn next_batch(&self) -> Option<(Vec<T>, u64)> {
         let mut batch = Vec::new();
         let mut state = self.lock();
@@ -163,25 +169,26 @@ impl<T> Queue<T> {
         Some((batch, state.window.finished()))
     }
 
-    /// Removes and returns the first failure of a worker.
+    /// Removes the first error of a worker from the queue and returns this error.
     pub(super) fn take_failure(&self) -> Option<RunError> {
         self.lock().failure.take()
     }
 }
 
 impl<T> State<T> {
-    /// Returns true if no further units of work are assigned to workers.
+    /// Returns true if workers receive no further units of work.
     fn ends(&self, stop: &AtomicBool) -> bool {
         self.aborted || self.failure.is_some() || self.window.is_exhausted() || stop.load(Ordering::Relaxed)
     }
 
-    /// Stores the failure, unless an earlier failure is stored.
+    /// Stores `error`, unless an earlier error is already stored.
     fn fail(&mut self, error: RunError) {
         self.failure.get_or_insert(error);
     }
 }
 
-/// Units of work after the last written unit, up to the last assigned unit: at most `capacity` units.
+/// The window contains all units of work that are assigned to a worker but not yet written. The window
+/// contains at most `capacity` units.
 ///
 /// ```text
 /// 0 ── written ──── taken ──────── handed_out ──── total
@@ -189,8 +196,8 @@ impl<T> State<T> {
 ///      │ written    │ or still running   │ begun
 /// ```
 ///
-/// Units of work are numbered in the order of assignment. For points, the number of a unit of work is its position
-/// among the selected points, not its index in the plan.
+/// Units of work are numbered in the order in which they are assigned to workers. The number of a point is
+/// its position in the list of selected points, not its index in the plan.
 pub(super) struct Window<T> {
     capacity: u64,
     total: u64,
@@ -198,12 +205,13 @@ pub(super) struct Window<T> {
     taken: u64,
     handed_out: u64,
     outcomes: VecDeque<Option<T>>,
-    /// Number of units of work with an outcome that was not taken.
+    /// Number of outcomes in the window that the collecting thread has not taken yet.
     waiting: usize,
 }
 
 impl<T> Window<T> {
-    /// Returns a window over the units of work `units`. The units of work before this range have been written.
+    /// Returns an empty window for the units of work with the numbers `units`. All units with smaller numbers
+    /// have been written.
     pub(super) fn new(units: Range<u64>, capacity: usize) -> Window<T> {
         Window {
             capacity: capacity.max(1) as u64,
@@ -216,12 +224,13 @@ impl<T> Window<T> {
         }
     }
 
-    /// Returns true if every unit of work has been assigned.
+    /// Returns true if every unit of work has been assigned to a worker.
     pub(super) fn is_exhausted(&self) -> bool {
         self.handed_out == self.total
     }
 
-    /// Returns the next unit of work to run, unless no unit is left or the window is full.
+    /// Assigns the next unit of work and returns its number. Returns `None` if no unit is left or the window
+    /// is full.
     pub(super) fn hand_out(&mut self) -> Option<u64> {
         if self.is_exhausted() || self.is_full() {
             return None;
@@ -231,8 +240,8 @@ impl<T> Window<T> {
         Some(self.handed_out - 1)
     }
 
-    /// Stores the outcome of an assigned unit of work. Returns false if the unit of work was not assigned or already
-    /// has an outcome.
+    /// Stores the outcome of the unit of work with the number `index`. Returns false if this unit was not
+    /// assigned, already has an outcome, or was already taken.
     pub(super) fn insert(&mut self, index: u64, outcome: T) -> bool {
         let place = index.checked_sub(self.taken).and_then(|place| usize::try_from(place).ok());
         match place.and_then(|place| self.outcomes.get_mut(place)) {
@@ -245,7 +254,8 @@ impl<T> Window<T> {
         }
     }
 
-    /// Returns true if an outcome can be taken, and either `enough` outcomes are present or the window is full.
+    /// Returns true if the next outcome is finished, and the window is full or contains at least `enough`
+    /// outcomes.
     pub(super) fn is_worth_taking(&self, enough: usize) -> bool {
         let next_is_here = matches!(self.outcomes.front(), Some(Some(_)));
         next_is_here && (self.waiting >= enough || self.is_full())
@@ -255,7 +265,8 @@ impl<T> Window<T> {
         self.handed_out - self.written >= self.capacity
     }
 
-    /// Moves at most `limit` consecutive outcomes after the last taken outcome to `batch`.
+    /// Moves the next consecutive outcomes to `batch`, until `batch` contains `limit` outcomes or the next
+    /// outcome is missing.
     pub(super) fn take(&mut self, batch: &mut Vec<T>, limit: usize) {
         while batch.len() < limit
             && let Some(Some(_)) = self.outcomes.front()
@@ -266,12 +277,13 @@ impl<T> Window<T> {
         }
     }
 
-    /// Records that all taken outcomes are written, which makes room for the same number of new units of work.
+    /// Records that all taken outcomes are written. The window then has room for the same number of new units
+    /// of work.
     pub(super) fn mark_written(&mut self) {
         self.written = self.taken;
     }
 
-    /// Returns the number of finished units of work, including units whose outcomes are already taken.
+    /// Returns the number of all finished units of work, including units whose outcomes are already taken.
     pub(super) fn finished(&self) -> u64 {
         self.taken + self.waiting as u64
     }

@@ -10,7 +10,7 @@ use crate::refine::Refined;
 use crate::resonance::RESONANCE_MARGIN_HZ;
 use crate::vehicle::{HOVER_RESIDUAL, TRIM_LIMIT};
 
-/// Number of rows with each status. In files, the numbers are stored as a table.
+/// Number of rows with each status. Files contain these numbers as a table with the names of the statuses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "HashMap<Status, u64>", into = "BTreeMap<&'static str, u64>")]
 pub struct Counts([u64; Status::ALL.len()]);
@@ -21,7 +21,7 @@ impl Counts {
         self.0[status as usize]
     }
 
-    /// Returns every status with its count, in the order of reports.
+    /// Returns each status with its number of rows, in the order in which flap prints the statuses.
     pub fn iter(&self) -> impl Iterator<Item = (Status, u64)> + '_ {
         Status::ALL.iter().map(|&status| (status, self.of(status)))
     }
@@ -39,26 +39,27 @@ impl From<Counts> for BTreeMap<&'static str, u64> {
     }
 }
 
-/// Numbers of rows whose measures users must treat with care.
+/// Numbers of rows whose measures may be unreliable, for each of four reasons.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Warnings {
-    /// Rows whose error estimate exceeds the requested accuracy.
+    /// Number of rows whose error estimate exceeds the requested accuracy.
     pub inaccurate: u64,
-    /// Rows with negative mean electrical power: the air adds more energy to the wing than it removes.
+    /// Number of rows with a negative mean electrical power. In these rows, the air adds more energy to the
+    /// wing than the air removes.
     pub negative_power: u64,
-    /// Rows whose resonance is at an end of the range of the search.
+    /// Number of rows whose resonance is at the smallest or largest frequency of the search.
     pub at_range_end: u64,
-    /// Rows at hover whose unbalanced force or torque exceeds 1 % of the weight. Torques are divided by a lever of 1
-    /// mm.
+    /// Number of rows at hover with an unbalanced force above 1 % of the weight. For torques, the limit is 1
+    /// % of the weight times 1 mm.
     pub unbalanced: u64,
 }
 
-/// A condition of a plan, and the number of points that do not satisfy it.
+/// A condition of a plan, and the number of points that do not satisfy this condition.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Unsatisfied {
     /// Name of the condition.
     pub condition: String,
-    /// Number of points.
+    /// Number of points that do not satisfy the condition.
     pub points: u64,
 }
 
@@ -67,36 +68,37 @@ pub struct Unsatisfied {
 pub struct InvalidPoint {
     /// Index of the point in the plan.
     pub point: u64,
-    /// Reason in words.
+    /// The reason why the combination of values is impossible.
     pub reason: String,
 }
 
 /// Summary of the rows written so far. Journals and sidecars record the summary.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Summary {
-    /// Number of points to run in total; for a response, number of designs.
+    /// Number of all selected points. In a run of responses, `points` is the number of selected designs.
     pub points: u64,
-    /// Number of points whose rows are all written.
+    /// Number of points or designs whose rows are all written.
     pub ran: u64,
-    /// Number of written rows of the next point, for a response curve that is partly written.
+    /// If the response curve of a design is only partly written, number of its written rows. Otherwise zero.
     pub begun: u64,
-    /// Number of written rows: the rows of the first selected points, except excluded points.
+    /// Number of written rows.
     pub rows: u64,
-    /// Number of excluded points among the finished points. Excluded points have no row.
+    /// Number of points that the conditions have excluded so far. Excluded points have no row.
     pub excluded: u64,
-    /// Number of all evaluations of the equations of motion.
+    /// Number of evaluations of the equations of motion, summed over all rows.
     pub rhs_evals: u64,
-    /// Number of all integrated drive periods.
+    /// Number of integrated drive periods, summed over all rows.
     pub cycles: u64,
-    /// Number of rows by status.
+    /// Number of rows with each status.
     pub statuses: Counts,
-    /// Numbers of rows that users must treat with care.
+    /// Numbers of rows whose measures may be unreliable.
     pub warnings: Warnings,
-    /// Conditions of the plan, in the order of the plan.
+    /// For each condition of the plan, the number of points that do not satisfy the condition. The conditions
+    /// have the same order as in the plan.
     pub unsatisfied: Vec<Unsatisfied>,
-    /// The first few invalid points.
+    /// The invalid points with the smallest indices, at most five.
     pub invalid: Vec<InvalidPoint>,
-    /// Result of the refinement of the grid, after the end of the refinement.
+    /// Result of the refinement of the grid. `None` until the refinement has ended.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub refined: Option<Refined>,
 }
@@ -105,7 +107,8 @@ impl Summary {
     /// Largest number of points in [`Summary::invalid`].
     const MOST_INVALID: usize = 5;
 
-    /// Returns the summary `before`, extended for the continuation of `plan`.
+    /// Returns the summary `before` of the written rows, with the current number of points and the conditions
+    /// of `plan`.
     pub(super) fn after(before: Summary, plan: &Plan) -> Summary {
         let counted = |name: &str| before.unsatisfied.iter().find(|known| known.condition == name);
         let unsatisfied = plan.conditions().iter().map(|condition| Unsatisfied {
@@ -115,22 +118,23 @@ impl Summary {
         Summary { points: plan.selected(), unsatisfied: unsatisfied.collect(), ..before }
     }
 
-    /// Returns the number of finished points, which are the first selected points.
+    /// Returns the number of finished points. The finished points are the first points in the list of
+    /// selected points.
     pub fn done(&self) -> u64 {
         self.ran.saturating_add(self.excluded)
     }
 
-    /// Returns true if some points have not been run.
+    /// Returns true if some selected points are not finished.
     pub fn is_interrupted(&self) -> bool {
         self.done() < self.points
     }
 
-    /// Returns true if all rows are periodic.
+    /// Returns true if all rows have the status `periodic`.
     pub fn all_periodic(&self) -> bool {
         self.statuses.of(Status::Periodic) == self.rows
     }
 
-    /// Counts a point that does not satisfy the conditions with the given indices.
+    /// Counts an excluded point, which does not satisfy the conditions with the indices `unsatisfied`.
     pub(super) fn exclude(&mut self, unsatisfied: &[usize]) {
         self.excluded += 1;
         for &condition in unsatisfied {
@@ -138,7 +142,7 @@ impl Summary {
         }
     }
 
-    /// Adds the written row of the point with the given index in the plan.
+    /// Counts a written row. `index` is the index of the row's point in the plan.
     pub(super) fn add(&mut self, index: u64, row: &Row, limits: &Limits) {
         if let (Status::Invalid, Some(reason)) = (row.status, &row.reason)
             && self.invalid.len() < Summary::MOST_INVALID
@@ -158,7 +162,7 @@ impl Summary {
             u64::from(measure(limits.residual).is_some_and(|share| share > TRIM_LIMIT));
     }
 
-    /// Adds the summary of other points of the same plan.
+    /// Adds the summary `other`, which counts further points of the same plan.
     pub fn add_all(&mut self, other: &Summary) {
         self.points += other.points;
         self.ran += other.ran;
@@ -187,18 +191,20 @@ impl Summary {
     }
 }
 
-/// Limits above which users must treat a row of a plan with care.
+/// The requested accuracy of a plan, and the positions of measures in a row. With these data, flap decides if
+/// the measures of a row may be unreliable.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     accuracy: f64,
-    /// Indices of columns in the measures of a row.
+    /// Position of the mean electrical power among the measures of a row.
     power: Option<usize>,
     margin: Option<usize>,
     residual: Option<usize>,
 }
 
 impl Limits {
-    /// Returns the limits above which rows of `plan` need care.
+    /// Returns the requested accuracy of `plan` and the positions of the measures that flap checks in each
+    /// row.
     pub(super) fn of(plan: &Plan) -> Limits {
         let columns: &[Column] = plan.rows().columns();
         let position = |name: &str| columns.iter().position(|column| column.name == name);

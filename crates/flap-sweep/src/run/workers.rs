@@ -1,4 +1,4 @@
-//! Runner of units of work: workers on all threads, whose outcomes are collected in order.
+//! Runs units of work on several worker threads, and returns the outcomes in the order of the units.
 
 use std::any::Any;
 use std::ops::Range;
@@ -11,26 +11,28 @@ use super::queue::Queue;
 use super::{Progress, RunError, RunOptions};
 use crate::notation::text::count;
 
-/// Work of one thread, which runs units of work until the queue is empty.
+/// The function that each worker thread calls: it computes units of work until the queue is empty.
 type Work<T> = dyn Fn(&mut Worker<'_, T>) + Send + Sync;
 
-/// Outcomes of units of work, such as the rows of points, in order: an iterator over `Result<T, RunError>`.
+/// An iterator over the outcomes of units of work, for example the rows of points, in the order of the units.
 ///
-/// Threads start when the first outcome is requested. The threads run at most [`RunOptions::window`] units of work
-/// ahead, and end when the run is dropped. The iterator ends after an error. The outcomes before the error belong to
-/// the first units of work.
+/// The worker threads start when the caller requests the first outcome, and end when the run is dropped. The
+/// threads compute at most [`RunOptions::window`] units of work ahead of the last returned outcome. The
+/// iterator returns an error as its last item. The outcomes before the error are the outcomes of the first
+/// units of work, without gaps.
 pub struct Run<T> {
     queue: Arc<Queue<T>>,
     work: Arc<Work<T>>,
     workers: usize,
     threads: Vec<JoinHandle<()>>,
-    /// Outcomes that the iterator returns next.
+    /// Finished outcomes that the iterator has not returned yet.
     batch: vec::IntoIter<T>,
     progress: Progress,
 }
 
 impl<T: Send + 'static> Run<T> {
-    /// Returns a run of the units of work at `positions`. Each worker thread calls `work` once.
+    /// Returns a run that computes the units of work with the numbers `positions`. Each worker thread calls
+    /// the function `work` once.
     pub(crate) fn new(
         positions: Range<u64>,
         options: &RunOptions,
@@ -51,13 +53,15 @@ impl<T: Send + 'static> Run<T> {
         }
     }
 
-    /// Returns the next outcomes, possibly none, after at most a tenth of a second; `None` at the end.
+    /// Waits at most a tenth of a second and returns the next outcomes, which may be an empty list. Returns
+    /// `None` after the last outcome.
     ///
-    /// A caller that shows progress or may be interrupted uses batches; other callers iterate.
+    /// If your program shows the progress or must react to interruptions, call `next_batch` repeatedly.
+    /// Otherwise use the run as an iterator.
     ///
     /// # Errors
-    /// [`RunError`] if a worker panics, violates its contract or cannot be started, after the outcomes of earlier
-    /// units.
+    /// [`RunError`] if a worker thread panics or cannot be started, or if the model returns wrong rows. The
+    /// outcomes of earlier units of work are returned before the error.
     pub fn next_batch(&mut self) -> Result<Option<Vec<T>>, RunError> {
         self.start();
         match self.queue.next_batch() {
@@ -69,19 +73,20 @@ impl<T: Send + 'static> Run<T> {
         }
     }
 
-    /// Returns the progress at the latest batch.
+    /// Returns the progress of the run at the last call of `next_batch`.
     pub fn progress(&self) -> Progress {
         self.progress
     }
 
-    /// Stops assigning units.
+    /// Stops the run: worker threads begin no further units of work.
     ///
-    /// Running units of work are discarded after [`RunOptions::grace`], so the run ends within a second.
+    /// Units of work that are not finished after the time [`RunOptions::grace`] are discarded. With the
+    /// default grace time, the run ends within a second.
     pub fn stop(&mut self) {
         self.queue.stop();
     }
 
-    /// Starts the threads, unless the threads run already.
+    /// Starts the worker threads, unless the threads are already running.
     fn start(&mut self) {
         // The run has its own threads: a pool of the caller would not survive a fork.
         for _ in 0..std::mem::take(&mut self.workers) {
@@ -121,20 +126,21 @@ impl<T> Drop for Run<T> {
     }
 }
 
-/// Access of a worker to the queue. The access requests units of work, passes on their outcomes, and counts missing
-/// outcomes.
+/// Connects one worker thread with the queue. With a `Worker`, the thread requests units of work and returns
+/// their outcomes.
 pub(crate) struct Worker<'a, T> {
     queue: &'a Queue<T>,
-    /// Number of assigned units of work without an outcome.
+    /// Number of units of work that this worker has requested and not finished.
     missing: u64,
-    /// Description of the mistake in the program of the model.
+    /// Description of a mistake in the program of the model, if a mistake was found.
     fault: Option<String>,
 }
 
 impl<T> Worker<'_, T> {
-    /// Returns the position of the next unit of work to run, or `None` if no unit is available at present.
+    /// Returns the number of the next unit of work, or `None` if no unit is available now.
     ///
-    /// If `idle` is true, the worker runs nothing: the call may wait, and `None` ends the work.
+    /// `idle` is true if the worker has no unfinished units of work. If `idle` is true, the call may wait,
+    /// and after the result `None` the worker must end.
     pub(crate) fn next(&mut self, idle: bool) -> Option<u64> {
         if self.fault.is_some() {
             return None;
@@ -145,24 +151,25 @@ impl<T> Worker<'_, T> {
         Some(position)
     }
 
-    /// Passes on the outcome of the unit of work at `position`.
+    /// Passes the outcome of the unit of work with the number `position` to the queue.
     pub(crate) fn done(&mut self, position: u64, outcome: T) {
         self.missing = self.missing.saturating_sub(1);
         self.queue.done(position, outcome);
     }
 
-    /// Ends the work because the model violated its contract. `fault` is the description of the violation.
+    /// Ends the work of this thread because the model returned a wrong row. `fault` describes the mistake.
     pub(crate) fn fail(&mut self, fault: String) {
         self.fault = Some(fault);
     }
 
-    /// Returns true if running units of work must be discarded without rows.
+    /// Returns true if the worker must abandon its unfinished units of work, which then have no rows.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.queue.is_cancelled()
     }
 }
 
-/// Runs `work` as one worker, and leaves the queue in any case. A panic or a missing outcome fails the run.
+/// Calls `work` on a worker thread, and then reports the end of the worker to the queue. If `work` panics or
+/// an outcome is missing, the run ends with an error.
 fn run_worker<T>(queue: &Queue<T>, work: &Work<T>) {
     let mut worker = Worker { queue, missing: 0, fault: None };
     let ended = catch_unwind(AssertUnwindSafe(|| work(&mut worker)));
@@ -178,7 +185,7 @@ fn run_worker<T>(queue: &Queue<T>, work: &Work<T>) {
     queue.leave(outcome);
 }
 
-/// Returns the text of a panic, if the panic has a text.
+/// Returns the message of a panic, or `no message` if the panic has no message.
 fn panic_message(panic: &(dyn Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().copied().or_else(|| panic.downcast_ref().map(String::as_str));
     text.unwrap_or("no message").to_owned()

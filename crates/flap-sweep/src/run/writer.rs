@@ -1,4 +1,5 @@
-//! Writes the rows of a run to a sink in order, and computes the summary of the rows.
+//! Writes the rows of a run in the order of the points to a file or table, and computes the summary of the
+//! rows.
 
 use std::borrow::Cow;
 use std::io;
@@ -12,68 +13,68 @@ use crate::plan::Plan;
 use crate::refine::{self, Refinement};
 use crate::table::layout::{Cell, Layout};
 
-/// A table that receives rows in order.
+/// A file or a table in memory to which rows are written in the order of the points.
 ///
-/// The order of calls is `begin`, then any number of `write`, `after_point` and `flush`, then `finish`. After an error,
-/// the caller calls no more functions of the sink.
+/// The caller first calls `begin`, then `write`, `after_point` and `flush` any number of times, and at the
+/// end `finish`. After an error, the caller calls no further functions of the sink.
 pub trait Sink {
-    /// Writes the header, if the sink has a header.
+    /// Writes the names of the columns, if the format of the output has a header.
     ///
     /// # Errors
-    /// The error of the write operation.
+    /// The error of the operating system if the output cannot be written.
     fn begin(&mut self) -> io::Result<()> {
         Ok(())
     }
 
-    /// Returns the rows that earlier runs have written, as text, in the order of the rows. A refinement requires the
-    /// rows of earlier runs.
+    /// Returns the rows that earlier runs have written to this output, with the cells as text. If a run with
+    /// refinement is resumed, the refinement reads these rows.
     ///
     /// # Errors
-    /// The error of opening the file with the rows.
+    /// The error of the operating system if the file with the rows cannot be opened.
     fn written(&self) -> io::Result<Written> {
         Ok(Box::new(std::iter::empty()))
     }
 
-    /// Writes the next row: one cell per column.
+    /// Writes the next row, with one cell for each column.
     ///
     /// # Errors
-    /// The error of the write operation.
+    /// The error of the operating system if the output cannot be written.
     fn write(&mut self, cells: &[Cell]) -> io::Result<()>;
 
-    /// Receives the summary of all rows so far, after every row and every excluded point. The run can be resumed after
-    /// the counted rows.
+    /// The caller calls this function after each row and after each excluded point. `so_far` is the summary
+    /// of all rows so far. If the run is interrupted, it can be resumed from this summary.
     ///
     /// # Errors
-    /// The error of storing the rows.
+    /// The error of the operating system if the rows cannot be stored on disk.
     fn after_point(&mut self, so_far: &Summary) -> io::Result<()> {
         let _ = so_far;
         Ok(())
     }
 
-    /// Passes the rows so far to the operating system, so that a killed process loses few rows. Does nothing for a
-    /// sink in memory.
+    /// Passes all buffered rows to the operating system, so that few rows are lost if the process is killed.
+    /// By default, this function does nothing, because a table in memory has no buffer.
     ///
     /// # Errors
-    /// The error of writing the rows.
+    /// The error of the operating system if the rows cannot be written.
     fn flush(&mut self) -> io::Result<()> {
         Ok(())
     }
 
-    /// Completes the output and makes it durable. Only flushes by default.
+    /// Completes the output, so that the rows are safe on disk. By default, this function only calls `flush`.
     ///
     /// # Errors
-    /// The error of writing the rows.
+    /// The error of the operating system if the rows cannot be written.
     fn finish(&mut self) -> io::Result<()> {
         self.flush()
     }
 }
 
-/// Rows as text, in the order of the rows.
+/// An iterator over rows whose cells are text.
 pub type Written = Box<dyn Iterator<Item = io::Result<StringRecord>>>;
 
-/// Writer of the rows of a plan to a sink. The writer also counts the rows.
+/// Writes the rows of a plan to a [`Sink`], and counts the rows.
 pub struct RowWriter<'a> {
-    /// Plan with the points of all rounds so far.
+    /// The plan, with all points that the refinement has added so far.
     plan: Cow<'a, Plan>,
     refinement: Option<Refinement>,
     layout: Layout<'a>,
@@ -83,10 +84,11 @@ pub struct RowWriter<'a> {
 }
 
 impl<'a> RowWriter<'a> {
-    /// Begins to write the rows of `plan` to `sink`. The rows that `before` counts are already written.
+    /// Writes the header to `sink`, and returns a writer for the rows of `plan`. `before` is the summary of
+    /// the rows that are already written.
     ///
     /// # Errors
-    /// [`RunError::Sink`] if the header cannot be written.
+    /// [`RunError::Sink`] if the header cannot be written, or if the rows of earlier runs cannot be read.
     pub fn begin(plan: &'a Plan, before: Summary, sink: &'a mut dyn Sink) -> Result<RowWriter<'a>, RunError> {
         // The header is written at once, even if the first row takes long.
         sink.begin()?;
@@ -105,19 +107,20 @@ impl<'a> RowWriter<'a> {
         Ok(RowWriter { plan, refinement, layout, limits, summary, sink })
     }
 
-    /// Returns the plan with the points of all rounds of its refinement so far.
+    /// Returns the plan with all points that its refinement has added so far.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// Runs the points whose rows are not yet written, and the points that the refinement of the plan adds. Writes the
-    /// rows of all these points.
+    /// Computes and writes the rows that are not yet written, and the rows of all points that the refinement
+    /// adds.
     ///
-    /// `stops` is called before each batch of rows, with the progress at the latest batch. If `stops` returns true, the
-    /// run stops, see [`Run::stop`](super::Run::stop).
+    /// Before each batch of rows, `run_points` calls `stops` with the current progress. If `stops` returns
+    /// true, the run stops (see [`Run::stop`](super::Run::stop)).
     ///
     /// # Errors
-    /// The error of the run, or [`RunError::Sink`] if the rows cannot be written.
+    /// [`RunError::Sink`] if rows cannot be written, and the errors of
+    /// [`Run::next_batch`](super::Run::next_batch).
     pub fn run_points(
         &mut self,
         options: &RunOptions,
@@ -142,10 +145,11 @@ impl<'a> RowWriter<'a> {
         }
     }
 
-    /// Adds the points of the next round of the refinement to the plan, after the rows of all its points are written.
+    /// Adds points to the plan if the rows of all points are written and the refinement requires further
+    /// points.
     ///
-    /// Returns false if there are no further points: the plan has no refinement, the refinement has ended, or rows are
-    /// missing.
+    /// Returns false if no points are added: the plan has no refinement, the refinement has ended, or rows
+    /// are not yet written.
     pub fn next_round(&mut self) -> bool {
         let Some(refinement) = &mut self.refinement else { return false };
         if self.summary.is_interrupted() || self.summary.refined.is_some() {
@@ -159,17 +163,18 @@ impl<'a> RowWriter<'a> {
         has_more
     }
 
-    /// Returns the columns of the rows.
+    /// Returns the layout, which contains the columns of the rows.
     pub fn layout(&self) -> &Layout<'a> {
         &self.layout
     }
 
-    /// Returns the number of finished points, which is the position of the next point.
+    /// Returns the number of finished points. The next point has this number as its position in the list of
+    /// selected points.
     pub fn done(&self) -> u64 {
         self.summary.done()
     }
 
-    /// Writes the row of the next point, or counts an excluded point.
+    /// Writes the row of the next point. If the next point is excluded, the function only counts the point.
     ///
     /// # Errors
     /// [`RunError::Sink`] if the row cannot be written.
@@ -192,8 +197,8 @@ impl<'a> RowWriter<'a> {
         }
     }
 
-    /// Writes the rows of the next unit of work, except rows that an earlier run has written. `index` is the index of
-    /// the point or design in the plan.
+    /// Writes the rows of the next point or design, except rows that an earlier run has already written.
+    /// `index` is the index of the point or design in the plan.
     pub(crate) fn write_rows<'r>(
         &mut self,
         index: u64,
@@ -214,14 +219,14 @@ impl<'a> RowWriter<'a> {
         Ok(self.sink.after_point(&self.summary)?)
     }
 
-    /// Counts the next unit of work as excluded by the conditions with the given indices. An excluded unit of work has
-    /// no row.
+    /// Counts the next point or design as excluded, because it does not satisfy the conditions with the
+    /// indices `unsatisfied`. An excluded point or design has no row.
     pub(crate) fn exclude(&mut self, unsatisfied: &[usize]) -> Result<(), RunError> {
         self.summary.exclude(unsatisfied);
         Ok(self.sink.after_point(&self.summary)?)
     }
 
-    /// Passes the rows so far to the operating system.
+    /// Passes all buffered rows to the operating system.
     ///
     /// # Errors
     /// [`RunError::Sink`] if the rows cannot be written.
@@ -229,10 +234,11 @@ impl<'a> RowWriter<'a> {
         Ok(self.sink.flush()?)
     }
 
-    /// Completes the sink after a run with the result `ended`, unless the sink cannot be written.
+    /// Completes the output and returns the summary. `ended` is the result of the run. If the rows could not
+    /// be written, the output is not completed.
     ///
     /// # Errors
-    /// The error of the run, or [`RunError::Sink`].
+    /// The error in `ended`, or [`RunError::Sink`] if the output cannot be completed.
     pub fn finish(mut self, ended: Result<(), RunError>) -> Result<Summary, RunError> {
         // A run that is interrupted between two rounds has points left.
         self.next_round();
@@ -243,7 +249,7 @@ impl<'a> RowWriter<'a> {
     }
 }
 
-/// Returns the number in a cell; NaN if the cell has no number.
+/// Returns the number in a cell, or NaN if the cell contains text or is empty.
 fn number(cell: &Cell<'_>) -> f64 {
     if let Cell::Number(number) = cell { *number } else { f64::NAN }
 }

@@ -1,4 +1,5 @@
-//! Deviations of a plan from its preset. Large deviations reveal a forgotten unit prefix.
+//! Compares the parameter values of a plan with the preset. A very large difference suggests that a unit
+//! prefix is missing.
 
 use flap_core::parameter::{Kind, Parameter, Preset};
 
@@ -8,23 +9,24 @@ use crate::plan::axes::Values;
 use crate::plan::sample::Distribution;
 use crate::plan::{Plan, Value};
 
-/// Ratio of a value to the value of the preset above which the value is probably a mistake.
+/// If a value is more than 100 times larger or smaller than the preset's value, the value is probably a
+/// mistake.
 pub const FAR: f64 = 100.0;
 
-/// A parameter that differs from the preset, in its value or in one of its values.
+/// A parameter with at least one value that differs from the preset.
 #[derive(Clone, Debug)]
 pub struct Deviation<'p> {
-    /// Parameter.
+    /// The parameter.
     pub parameter: &'p Parameter<'p>,
-    /// Value of the parameter, or the first and the last value of an axis.
+    /// The value of the parameter, or the first and the last value of the parameter's axis.
     pub values: Vec<f64>,
-    /// Value in the preset; NaN if the preset sets no value.
+    /// Value of the parameter in the preset, or NaN if the preset sets no value.
     pub preset: f64,
-    /// True if the values of the parameter have units in the file.
+    /// True if each value of the parameter has a unit in the grid file.
     pub has_unit: bool,
 }
 
-/// Returns the parameters that differ from the preset, in the order of the model's table.
+/// Returns the parameters of a plan that differ from the preset, in the order of the model's parameter table.
 pub fn of(plan: &Plan) -> Vec<Deviation<'_>> {
     let mut values: Vec<Vec<f64>> = plan.base().iter().map(|value| vec![value.in_point()]).collect();
     let are_devices = plan.design().is_some_and(|design| plan.parameters()[design].name == "device");
@@ -42,10 +44,10 @@ pub fn of(plan: &Plan) -> Vec<Deviation<'_>> {
     compare(plan, values, |parameter| plan.has_unit(parameter))
 }
 
-/// Returns the parameters of the point with these values that differ from the preset, in the order of the model's
-/// table.
+/// Returns the parameters of one point that differ from the preset, in the order of the model's parameter
+/// table. `values` are the parameter values of the point.
 ///
-/// `has_unit` returns true if the value of a parameter has a unit in the file.
+/// The function `has_unit` must return true if the user gave the value of a parameter with a unit.
 pub fn of_point<'p>(plan: &'p Plan, values: &[f64], has_unit: impl Fn(usize) -> bool) -> Vec<Deviation<'p>> {
     compare(plan, values.iter().map(|value| vec![*value]).collect(), has_unit)
 }
@@ -68,7 +70,8 @@ fn compare(plan: &Plan, values: Vec<Vec<f64>>, has_unit: impl Fn(usize) -> bool)
     .collect()
 }
 
-/// Returns the values of the preset. A parameter of one wing has the value of all wings.
+/// Returns the parameter values of the preset. If a parameter of one wing is not set, the result contains the
+/// value of the parameter for all wings.
 fn of_preset(plan: &Plan, preset: &Preset) -> Vec<f64> {
     let parameters = plan.parameters();
     let values: Vec<f64> =
@@ -82,7 +85,8 @@ fn of_preset(plan: &Plan, preset: &Preset) -> Vec<f64> {
     own.collect()
 }
 
-/// Returns the ends of an axis; for a list, the smallest and the largest value.
+/// Returns the first and the last value of an axis. For a list, the result is the smallest and the largest
+/// value. For a normal distribution, the result is the mean.
 fn ends(values: &Values) -> Vec<f64> {
     match values {
         Values::Sampled { distribution, .. } => match distribution {
@@ -104,7 +108,8 @@ fn extremes(list: &[f64]) -> Vec<f64> {
 }
 
 impl Deviation<'_> {
-    /// Returns the value as text, or the first and the last value of an axis as text.
+    /// Returns the value of the parameter as text. For an axis, the text contains the first and the last
+    /// value.
     pub fn shown(&self) -> String {
         let values: Vec<String> = self.values.iter().map(|value| self.text(*value)).collect();
         values.join(" to ")
@@ -115,17 +120,18 @@ impl Deviation<'_> {
         self.text(self.preset)
     }
 
-    /// Returns the ratio to the preset's value; empty if the ratio is not finite.
+    /// Returns the ratio of the value to the preset's value, as text. The text is empty if the ratio is not
+    /// finite.
     pub fn ratio(&self) -> String {
         let ratios: Vec<String> =
             self.values.iter().filter_map(|value| self.ratio_of(*value)).map(short).collect();
         ratios.join(" to ")
     }
 
-    /// Returns a warning if a value is far from the preset's value. The warning contains the value that was probably
-    /// intended.
+    /// Returns a warning if a value differs from the preset's value by more than a factor of 100. The warning
+    /// suggests the value that the user probably meant.
     ///
-    /// A value with a unit causes no warning.
+    /// If the user gave the value with a unit, there is no warning.
     pub fn warning(&self) -> Option<String> {
         if self.has_unit {
             return None;
@@ -159,7 +165,7 @@ impl Deviation<'_> {
     }
 }
 
-/// Returns a ratio as text with three digits.
+/// Returns a ratio as text with three significant digits.
 fn short(ratio: f64) -> String {
     units::prefixed(format!("{ratio:.2e}").parse().unwrap_or(ratio), "")
 }

@@ -1,5 +1,5 @@
-//! Experiments on single points, with limits on the length and with finite results: chirps, and forces along an imposed
-//! motion.
+//! Computes chirps, and the forces along imposed motions. Chirps that are too long, and results that are not
+//! finite, are errors.
 
 use flap_core::simulate::{
     ChirpRequest, ChirpResponse, Experiments, ImposedMotion, PointRun, Trajectory, Unfinished,
@@ -8,7 +8,7 @@ use flap_experiments::free::INTERVALS_MAX;
 
 use crate::notation::UserError;
 
-/// Largest number of drive periods of a chirp.
+/// Largest number of drive periods that a chirp may have.
 pub const CYCLES_MAX: f64 = 100_000.0;
 
 impl From<Unfinished> for UserError {
@@ -17,10 +17,10 @@ impl From<Unfinished> for UserError {
     }
 }
 
-/// Runs a chirp. The chirp must have at most [`CYCLES_MAX`] drive periods.
+/// Computes the motion during a chirp. A chirp may have at most [`CYCLES_MAX`] drive periods.
 ///
 /// # Errors
-/// An error if the chirp is too long, and the errors of [`Experiments::chirp`].
+/// An error if the chirp has too many drive periods or samples, and the errors of [`Experiments::chirp`].
 pub fn chirp(
     model: &dyn Experiments,
     run: &PointRun<'_>,
@@ -56,7 +56,8 @@ pub fn chirp(
     Ok(model.chirp(run, request)?)
 }
 
-/// Returns the forces along an imposed motion, without the columns that the motion does not determine.
+/// Returns the forces along an imposed motion. Columns that cannot be computed from the given motion are left
+/// out.
 ///
 /// # Errors
 /// An error if a force is infinite or NaN, and the errors of [`Experiments::imposed`].

@@ -1,4 +1,4 @@
-//! Inputs of a plan's vehicle that the user names.
+//! Finds the inputs of a vehicle by the names that a user gives.
 
 use flap_core::vehicle::Vehicle;
 
@@ -7,7 +7,7 @@ use crate::notation::UserError;
 use crate::plan::Plan;
 use crate::vehicle::control::Input;
 
-/// Returns the vehicle of a plan. `what` is the name of the design in the error message.
+/// Returns the vehicle of a plan. `what` names the design in the error message.
 ///
 /// # Errors
 /// An error if the plan describes one wing.
@@ -17,10 +17,11 @@ pub fn vehicle<'p>(plan: &'p Plan, what: &str) -> Result<&'p Vehicle, UserError>
     plan.vehicle().ok_or_else(|| UserError::new(message(), Some(help)))
 }
 
-/// Returns the input called `name` of a plan's vehicle, see [`Input::of`].
+/// Returns the vehicle's input with the given name (see [`Input::of`]).
 ///
 /// # Errors
-/// An error if the vehicle has no input with the given name, or if the parameter of the input is derived.
+/// An error if the plan has no vehicle, if no input has this name, or if a formula determines the parameter
+/// of the input.
 pub fn input(plan: &Plan, name: &str) -> Result<Input, UserError> {
     let input = Input::of(vehicle(plan, "the design")?, name).map_err(|error| {
         let help = why_absent(plan.parameters(), name).or(error.help);
@@ -29,10 +30,10 @@ pub fn input(plan: &Plan, name: &str) -> Result<Input, UserError> {
     independent(plan, input?)
 }
 
-/// Returns the inputs with the given names, see [`input`].
+/// Returns the vehicle's inputs with the given names (see [`input`]).
 ///
 /// # Errors
-/// The error of [`input`], or an error if two names belong to the same parameter.
+/// The errors of [`input`], and an error if two of the names denote the same parameter.
 pub fn named(plan: &Plan, names: &[String]) -> Result<Vec<Input>, UserError> {
     let mut inputs: Vec<Input> = Vec::new();
     for name in names {
@@ -45,27 +46,28 @@ pub fn named(plan: &Plan, names: &[String]) -> Result<Vec<Input>, UserError> {
     Ok(inputs)
 }
 
-/// Returns the default inputs of a plan's vehicle, see [`Input::usual`].
+/// Returns the default inputs of a plan's vehicle (see [`Input::usual`]).
 ///
 /// # Errors
-/// An error if the plan describes one wing, or if the parameter of an input is derived.
+/// An error if the plan describes one wing, or if a formula determines the parameter of an input.
 pub fn usual(plan: &Plan, values: &[f64]) -> Result<Vec<Input>, UserError> {
     let inputs = Input::usual(vehicle(plan, "the design")?, values);
     inputs.into_iter().map(|input| independent(plan, input)).collect()
 }
 
-/// Returns the warning for a plan with derived parameters, whose formulas are ignored while inputs change.
+/// If the plan has derived parameters, returns a warning that derived parameters stay constant while inputs
+/// change.
 pub fn held_constant(plan: &Plan) -> Option<&'static str> {
     let mut derived = plan.derived().parameters();
     derived.next().map(|_| "derived parameters ([derived]) are held constant while inputs change")
 }
 
-/// Returns the error for a second input with the same parameter.
+/// Returns the error message for an input that the user gave twice.
 pub(super) fn twice(name: &str) -> UserError {
     UserError::new(format!("`{name}` is named twice"), None)
 }
 
-/// Returns the input, or an error if the parameter of the input is derived.
+/// Returns `input`, or an error if a formula under `[derived]` determines the parameter of the input.
 fn independent(plan: &Plan, input: Input) -> Result<Input, UserError> {
     if plan.derived().parameters().any(|derived| derived == input.parameter) {
         let help = "choose the parameters from which it is derived, or remove it from [derived]";

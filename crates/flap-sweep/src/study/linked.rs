@@ -1,26 +1,30 @@
-//! Parameters that usually change with a varied parameter, such as the stiffness of a transmission with its ratio.
+//! Finds parameters that should change together with a varied parameter. For example, the stiffness of a
+//! transmission changes with the transmission ratio.
 
 use flap_core::parameter::{Parameter, Preset};
 
 use crate::plan::{Plan, Value};
 
-/// A parameter that stays the same, although it should scale with a parameter that varies.
+/// A parameter that a plan keeps constant, although the parameter should scale with a parameter that the plan
+/// varies.
 #[derive(Clone, Debug)]
 pub struct Linked<'p> {
-    /// The parameter that stays the same.
+    /// The parameter that the plan keeps constant.
     pub parameter: &'p Parameter<'p>,
-    /// Value of the parameter in SI units.
+    /// Value of the constant parameter in SI units.
     pub value: f64,
-    /// Names of the varied parameters.
+    /// Names of the varied parameters with which the constant parameter should scale.
     pub varied: Vec<&'p str>,
-    /// Formula for `[derived]` by which the parameter scales with the varied parameters.
+    /// Formula for the table `[derived]` of the grid file, with which the parameter scales with the varied
+    /// parameters.
     pub formula: String,
 }
 
-/// Returns the linked parameters of a plan, in the order of the model's table. The list is empty for a vehicle.
+/// Returns the parameters that a plan keeps constant although they should change, in the order of the model's
+/// parameter table. The list is empty for a vehicle.
 ///
-/// A parameter is linked if it is neither varied nor derived, is not zero, and scales with a parameter that is varied
-/// or derived.
+/// The list contains parameters that are constant and not zero, and that scale with a varied or derived
+/// parameter.
 pub fn of(plan: &Plan) -> Vec<Linked<'_>> {
     if plan.vehicle().is_some() {
         return Vec::new();
@@ -44,8 +48,8 @@ pub fn of(plan: &Plan) -> Vec<Linked<'_>> {
     linked
 }
 
-/// Returns the value of a parameter before the axes are applied, as text for a formula: `preset.NAME` for the value of
-/// the preset, otherwise the number. Returns `None` for a value that is zero or not set.
+/// Returns the base value of a parameter as text for a formula. The text is `preset.NAME` if the value is the
+/// preset's value, and otherwise the number. Returns `None` if the value is zero or not set.
 fn reference(plan: &Plan, preset: Option<&Preset>, index: usize) -> Option<String> {
     let value = plan.base()[index].in_point();
     if value == 0.0 || value.is_nan() {

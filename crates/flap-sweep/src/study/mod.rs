@@ -1,7 +1,9 @@
-//! Studies of a plan: response curves, deviations of parameters, linked parameters.
+//! Studies of a plan: response curves, comparisons with the preset, and parameters that should change
+//! together.
 //!
-//! Further studies are the most important parameters, effects of terms, surveys, optima, and quadratic maps of
-//! vehicles. The module also contains experiments on single points, and the inputs of vehicles that users name.
+//! Further studies compute the most important parameters, effects of terms, excluded points, optima, and
+//! quadratic maps of vehicles. The module also contains experiments on single points, and finds inputs of
+//! vehicles by their names.
 
 pub mod deviation;
 pub mod experiment;

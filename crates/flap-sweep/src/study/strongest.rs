@@ -1,4 +1,4 @@
-//! The parameters with the largest effect on a measure of a settled motion.
+//! Finds the parameters that have the largest effect on a measure of a settled motion.
 
 use flap_core::parameter::{Kind, Range};
 use flap_core::simulate::{Change, NoSlope, PointRun, Row, Simulator, Unfinished};
@@ -6,21 +6,24 @@ use flap_core::simulate::{Change, NoSlope, PointRun, Row, Simulator, Unfinished}
 use crate::derivative::{moved, size};
 use crate::plan::Plan;
 
-/// Derivatives of a measure with respect to all parameters that can change.
+/// Derivatives of one measure with respect to the parameters that can have small relative changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Slopes {
-    /// Indices of parameters in descending order of the effect. For each index, the change of the measure per relative
-    /// change of the parameter, in the unit of the measure.
+    /// Pairs of the index of a parameter and the derivative of the measure, in descending order of the
+    /// magnitude. The derivative is the change of the measure, in its unit, per relative change of the
+    /// parameter.
     pub known: Vec<(usize, f64)>,
-    /// Indices of parameters with missing derivatives, each with the reason.
+    /// Indices of the parameters whose derivative is missing, each with the reason.
     pub unknown: Vec<(usize, NoSlope)>,
 }
 
-/// Returns the derivatives of the measure number `measure` at the periodic `row` of a point.
+/// Returns the derivatives of a measure for a point with a periodic motion. `measure` is the index of the
+/// measure in the measures of `row`.
 ///
-/// `run` computed the row with the plan's source of rows for hover or a damping matrix. A plan without such a source
-/// uses its model, `simulator`. Derived parameters are updated, except parameters in `fixed`, which have their own
-/// values. At hover, the inputs change with the design, so that the vehicle keeps hovering.
+/// `row` is the row of the point `run`. If rows are computed at hover or with the damping matrix, the
+/// derivatives come from [`Plan::body`]. Otherwise the derivatives come from `simulator`, the model of the
+/// plan. When a parameter changes, derived parameters change too, except the parameters in `fixed`. At hover,
+/// the inputs change so that the vehicle with the changed parameter still hovers.
 ///
 /// # Errors
 /// [`Unfinished`], as in
@@ -65,8 +68,8 @@ pub fn slopes(
     Ok(Slopes { known, unknown })
 }
 
-/// Returns the parameters with relative changes: numbers that are set and not zero, not whole numbers, not derived, and
-/// no inputs of hover.
+/// Returns the parameters that can have small relative changes. Parameters that are zero, not set, whole
+/// numbers, choices, derived, or inputs of hover are left out.
 fn changing(plan: &Plan, values: &[f64]) -> Vec<usize> {
     let parameters = plan.parameters().iter().enumerate();
     let changing = parameters.filter(|(index, parameter)| {

@@ -1,23 +1,24 @@
-//! Survey of a plan without a run: points that the conditions exclude, and points that are spread over the plan.
+//! Examines the points of a plan without computing rows: counts the points that conditions exclude, and
+//! chooses points that are spread over the plan.
 
 use crate::plan::{Admission, Plan};
 use crate::run::Unsatisfied;
 
-/// Counts of the points that the conditions of a plan exclude.
+/// Number of points that the conditions of a plan exclude, in total and for each condition.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Exclusions {
     /// Number of examined points: all points of the plan, or some points that are spread over the plan.
     pub looked_at: u64,
-    /// Number of excluded points among the examined points.
+    /// Number of examined points that at least one condition excludes.
     pub excluded: u64,
-    /// Conditions of the plan, each with the number of excluded points.
+    /// For each condition of the plan, the number of examined points that do not satisfy the condition.
     pub unsatisfied: Vec<Unsatisfied>,
 }
 
 /// Counts the points that the conditions of `plan` exclude.
 ///
-/// The survey examines all points, if there are at most `most` points. If there are more than `most` points, the survey
-/// examines `most` points that are spread over the plan.
+/// If the plan has at most `most` points, the function examines all points. Otherwise the function examines
+/// `most` points that are spread over the plan.
 pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
     let conditions = plan.conditions().iter();
     let unsatisfied =
@@ -35,10 +36,11 @@ pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
     found
 }
 
-/// Returns the index of point `number` of an endless sequence spread over a plan of `points` points.
+/// Returns an element of an endless sequence of point indices that are evenly spread over a plan. `number` is
+/// the position in the sequence, and `points` is the number of points of the plan.
 ///
-/// The indices are fractional parts of multiples of the golden ratio, times `points`. Such indices leave no large gaps
-/// and are not periodic along any axis.
+/// Each index is the fractional part of a multiple of the golden ratio, times `points`. Indices of this kind
+/// leave no large gaps and have no common period with any axis.
 pub fn spread(number: u64, points: u64) -> u64 {
     const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
     let share = number.wrapping_mul(GOLDEN);

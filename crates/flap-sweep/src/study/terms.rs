@@ -1,4 +1,5 @@
-//! Effects on the measures of a design, caused by terms that the papers leave out.
+//! Computes how the measures of a design change if a term that the papers leave out is added to the
+//! equations.
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{PointRun, Row, Status};
@@ -9,7 +10,8 @@ const ALL: &[&str] = &["bimorph", "direct-drive", "four-bar"];
 const BIMORPH: &[&str] = &["bimorph"];
 const OTHERS: &[&str] = &["direct-drive", "four-bar"];
 
-/// Terms in the order of the manual (`docs/models/terms.md`): parameter, typical size, and the models with this size.
+/// Terms of the equations in the order of the manual (`docs/models/terms.md`). Each entry contains the
+/// parameter of the term, a typical value, and the models for which this value is typical.
 const TERMS: [(&str, f64, &[&str]); 24] = [
     // The effect of this size is similar to the effect of the loss factor below.
     ("stroke_damping", 5e-9, BIMORPH),
@@ -38,30 +40,31 @@ const TERMS: [(&str, f64, &[&str]); 24] = [
     ("charge_recovery", 0.42, ALL),
 ];
 
-/// A term of a design that is switched on or off.
+/// The effect of one term of the equations, which is switched on or off for a design.
 #[derive(Clone, Debug)]
 pub struct Effect {
-    /// Index of the parameter.
+    /// Index of the term's parameter in the model's parameter table.
     pub parameter: usize,
-    /// Value of the parameter in the design.
+    /// Value of the parameter in the unchanged design.
     pub before: f64,
-    /// Changed value of the parameter.
+    /// Value of the parameter after the change.
     pub after: f64,
-    /// Row of the design with the changed value.
+    /// Row of the design after the change.
     pub row: Row,
 }
 
 impl Effect {
-    /// Returns the measures of the row, or `None` if the motion is not periodic.
+    /// Returns the measures of the changed design, or `None` if its motion is not periodic.
     pub fn measures(&self) -> Option<&[f64]> {
         (self.row.status == Status::Periodic).then_some(&self.row.measures)
     }
 }
 
-/// Returns the effect of each term on the design of `run`. Each effect is for a change of one term alone.
+/// Returns the effect of each term on the design of `run`. For each effect, only one term is changed.
 ///
-/// A term that the design leaves out is switched on with a typical size. A term that the design has is switched off.
-/// Derived parameters of the plan are updated, except parameters in `fixed`, which have their own values.
+/// If the design does not contain a term, the parameter of the term is set to a typical value. If the design
+/// contains a term, the term is switched off. Derived parameters are computed again after the change, except
+/// the parameters in `fixed`.
 pub fn effects(plan: &Plan, run: &PointRun<'_>, fixed: &[usize]) -> Vec<Effect> {
     let simulator = plan.robot().model();
     let known = TERMS.iter().filter(|(_, _, models)| models.contains(&simulator.name()));

@@ -1,11 +1,12 @@
-//! Quadratic map from the inputs of a vehicle to its mean force and torque, for model-predictive controllers.
+//! Computes the mean force and torque of a vehicle as quadratic polynomials of its inputs, for
+//! model-predictive controllers.
 //!
 //! ```text
 //! W_i = c_0 + Σ c_j s_j + Σ_{j≤k} c_jk s_j s_k,   s = (input − centre) / half range
 //! ```
 //!
-//! Least squares over rows of the vehicle give the coefficients. Every fifth row is left out of the fit and tests the
-//! map.
+//! The coefficients are fitted to rows of the vehicle by least squares. Every fifth row is not part of the
+//! fit and is used to test the map.
 
 use flap_core::simulate::{Row, Status};
 use nalgebra::{DMatrix, DVector};
@@ -17,45 +18,49 @@ use crate::plan::sample::{Distribution, Method, SamplePoints};
 use crate::run::{Outcome, Progress, RunError, RunOptions, rows};
 use crate::vehicle::control::{COMPONENTS, Input, because, places};
 
-/// Number of rows in a group from which one row is left out of the fit.
+/// Of each group of five rows, one row is left out of the fit, to test the map.
 const LEFT_OUT: usize = 5;
 
-/// Smallest number of samples, so that at least two rows are left out of the fit.
+/// Smallest number of samples. With ten samples, two rows are left out of the fit to test the map.
 const FEWEST_SAMPLES: usize = 10;
 
-/// Smallest singular value of the fit, relative to the largest singular value.
+/// The coefficients are unique if the smallest singular value of the fit is above this fraction of the
+/// largest singular value.
 const SMALLEST_SINGULAR: f64 = 1e-9;
 
-/// Relative size below which the changes of a component count as zero: the changes divided by the largest component.
+/// If a component of the wrench changes by less than this fraction of the largest component, the component
+/// counts as constant.
 const CONSTANT: f64 = 1e-6;
 
-/// Coefficient of determination below which a warning reports a poor map of a component.
+/// If the coefficient of determination of a component is below this value, flap warns that the map of the
+/// component is poor.
 const POOR: f64 = 0.99;
 
-/// Floquet multiplier above which a motion is near a steep part of its response.
+/// If a Floquet multiplier is above this value, the motion is near a steep part of the response, and flap
+/// prints a warning.
 const STEEP: f64 = 0.7;
 
-/// Advice if the periodic rows are too few, or do not determine the map.
+/// Advice for the user if the rows with periodic motions are too few, or do not determine the coefficients.
 const NARROWER: &str = "choose narrower ranges around a settled motion, or more samples";
 
-/// Seed of the sample.
+/// Seed of the random numbers with which the sample is scrambled.
 const SEED: u64 = 0;
 
-/// An input of a map, with the range of the input.
+/// An input of a wrench map, with the range in which the map is fitted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MapInput {
     /// Name of the input as the user gives it (see [`Input::of`]).
     pub name: String,
     /// Index in the vehicle's parameter table.
     pub parameter: usize,
-    /// Smallest value (SI).
+    /// Smallest value of the input (SI).
     pub from: f64,
-    /// Largest value (SI).
+    /// Largest value of the input (SI).
     pub to: f64,
 }
 
 impl MapInput {
-    /// Returns `input` with the range between two values (SI).
+    /// Returns `input` with the range from `from` to `to` (SI).
     ///
     /// # Errors
     /// An error if `from` is not less than `to`.
@@ -68,21 +73,21 @@ impl MapInput {
         Err(UserError::new(format!("the range of `{}` {mistake}", input.name), Some(help)))
     }
 
-    /// Returns the centre of the range (SI).
+    /// Returns the centre of the input's range (SI).
     pub fn centre(&self) -> f64 {
         0.5 * (self.from + self.to)
     }
 
-    /// Returns half the width of the range (SI).
+    /// Returns half the width of the input's range (SI).
     pub fn half_range(&self) -> f64 {
         0.5 * (self.to - self.from)
     }
 }
 
-/// Reason why a map cannot be computed.
+/// The reason why a wrench map cannot be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum WrenchMapError {
-    /// Inputs, samples or the plan have a mistake, or too few points have a periodic motion.
+    /// An input, the number of samples or the plan is not allowed, or too few points have a periodic motion.
     #[error(transparent)]
     Mistake(#[from] UserError),
     /// The rows cannot be computed.
@@ -90,51 +95,56 @@ pub enum WrenchMapError {
     Run(#[from] RunError),
 }
 
-/// Returns the numbers of rows by status, such as `3 unsettled, 1 invalid`.
+/// Returns the number of rows with each status as text, such as `3 unsettled, 1 invalid`.
 fn statuses(unused: &[(Status, usize)]) -> String {
     let parts = unused.iter().map(|(status, rows)| format!("{rows} {}", status.name()));
     parts.collect::<Vec<_>>().join(", ")
 }
 
-/// Quadratic map of mean force (mN) and torque (uN·m) over inputs (SI), see [`COMPONENTS`].
+/// A wrench map: the components of mean force (mN) and torque (uN·m) as quadratic polynomials of the inputs
+/// (SI). [`COMPONENTS`] lists the components.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WrenchMap {
-    /// Inputs, with the ranges in which the map is valid.
+    /// The inputs, each with the range in which the map is valid.
     pub inputs: Vec<MapInput>,
-    /// Coefficients for inputs scaled to -1 to 1: one row per component, one column per term of [`terms`].
+    /// Coefficients for scaled inputs, whose ranges are -1 to 1. The matrix has one row for each component
+    /// and one column for each term (see [`terms`]).
     pub scaled: DMatrix<f64>,
-    /// Coefficient of determination of each component on the rows that were left out of the fit. NaN if the component
-    /// is constant.
+    /// Coefficient of determination of each component, computed from the rows that were left out of the fit.
+    /// NaN for a constant component.
     pub r_squared: [f64; 6],
-    /// Largest error of each component on the rows that were left out of the fit (mN or uN·m).
+    /// Largest error of the map for each component, among the rows that were left out of the fit (mN or
+    /// uN·m).
     pub largest_error: [f64; 6],
-    /// Number of rows in the fit.
+    /// Number of rows to which the coefficients are fitted.
     pub fitted: usize,
-    /// Number of rows that were left out of the fit.
+    /// Number of rows that were left out of the fit to test the map.
     pub left_out: usize,
-    /// Numbers of rows without a periodic motion by status, which are not used.
+    /// Rows without a periodic motion, which are not used: the number of rows with each status.
     pub unused: Vec<(Status, usize)>,
-    /// Largest magnitude of the Floquet multipliers of the rows; NaN if unknown.
+    /// Largest magnitude of the Floquet multipliers among all rows with a periodic motion. NaN if unknown.
     pub floquet_max: f64,
-    /// The warning for derived parameters, which have the values of the point in all rows.
+    /// A warning that derived parameters were kept constant, if the plan has derived parameters.
     held_constant: Option<&'static str>,
 }
 
 impl WrenchMap {
-    /// Largest number of inputs.
+    /// Largest number of inputs of a wrench map.
     pub const MOST_INPUTS: usize = 16;
 
-    /// Default number of samples.
+    /// Default number of samples of a wrench map.
     pub const SAMPLES: u32 = 400;
 
-    /// Returns the map of the vehicle of `plan` over the ranges of `inputs`. All other parameters have the `values` of
-    /// a point.
+    /// Computes the wrench map for the vehicle of `plan`. The `inputs` vary in their ranges, and all
+    /// remaining parameters have the `values` of a point.
     ///
-    /// The `samples` points are a scrambled Sobol' sequence and do not depend on the number of threads. `stops` is
-    /// called repeatedly during the computation. If `stops` returns true, the computation ends without a map.
+    /// The inputs have the values of a scrambled Sobol' sequence with `samples` points. The map does not
+    /// depend on the number of threads. During the computation, `stops` is called several times a second. If
+    /// `stops` returns true, the result is `None`.
     ///
     /// # Errors
-    /// [`WrenchMapError`] for a mistake in inputs and samples, or if too few points have a periodic motion.
+    /// [`WrenchMapError`] if the inputs or the number of samples are not allowed, or if too few points have a
+    /// periodic motion.
     pub fn of(
         plan: &Plan,
         values: &[f64],
@@ -189,7 +199,9 @@ impl WrenchMap {
         Ok(Some(WrenchMap { unused, floquet_max, held_constant, ..map }))
     }
 
-    /// Returns the map that fits the given wrenches at the given points (SI). Every fifth point is left out of the fit.
+    /// Fits a map to the forces and torques in `wrenches`. The `points` contain the values of the inputs
+    /// (SI). Every fifth point is left out of the fit. Returns `None` if the points do not determine the
+    /// coefficients.
     fn fitted_to(inputs: Vec<MapInput>, points: &[Vec<f64>], wrenches: &[[f64; 6]]) -> Option<WrenchMap> {
         let is_left_out = |place: &usize| place % LEFT_OUT == LEFT_OUT - 1;
         let (tested, fitted): (Vec<usize>, Vec<usize>) = (0..points.len()).partition(is_left_out);
@@ -227,15 +239,16 @@ impl WrenchMap {
         Some(map)
     }
 
-    /// Returns mean force (mN) and torque (uN·m) at the given values of the inputs (SI), with one value per input.
+    /// Returns the mean force (mN) and torque (uN·m) that the map gives. `inputs` contains one value for each
+    /// input (SI).
     ///
-    /// Outside the ranges of the inputs, the map is an extrapolation.
+    /// If a value is outside of the input's range, the map extrapolates and may be inaccurate.
     pub fn evaluate(&self, inputs: &[f64]) -> [f64; 6] {
         let wrench = &self.scaled * self.monomials(inputs);
         core::array::from_fn(|component| wrench[component])
     }
 
-    /// Returns the value of each term at the given values of the inputs.
+    /// Returns the value of each polynomial term. `values` contains one value for each input (SI).
     fn monomials(&self, values: &[f64]) -> DVector<f64> {
         let scaled: Vec<f64> = (self.inputs.iter().zip(values))
             .map(|(input, value)| (value - input.centre()) / input.half_range())
@@ -247,7 +260,8 @@ impl WrenchMap {
         )
     }
 
-    /// Returns the coefficients for inputs in SI units, in the same order as [`WrenchMap::scaled`].
+    /// Returns the coefficients for inputs in SI units, which are not scaled. The order of the coefficients
+    /// is the same as in [`WrenchMap::scaled`].
     pub fn physical(&self) -> DMatrix<f64> {
         let terms = terms(self.inputs.len());
         let place = |wanted: &[usize]| terms.iter().position(|term| term == wanted).unwrap_or_default();
@@ -277,7 +291,8 @@ impl WrenchMap {
         physical
     }
 
-    /// Returns warnings about the map: rows that are not used, poor components, a steep response, inputs without effect.
+    /// Returns warnings for the user, for example about rows without a periodic motion, or about components
+    /// for which the map is poor.
     pub fn warnings(&self) -> Vec<String> {
         let mut warnings = Vec::new();
         warnings.extend(self.held_constant.map(str::to_owned));
@@ -315,7 +330,8 @@ impl WrenchMap {
         warnings
     }
 
-    /// Returns the exponent of each input in each term of [`terms`].
+    /// Returns one list for each polynomial term (see [`terms`]), with the exponent of each input in this
+    /// term.
     pub fn powers(&self) -> Vec<Vec<usize>> {
         let inputs = 0..self.inputs.len();
         let power = |term: &[usize], input| term.iter().filter(|&&factor| factor == input).count();
@@ -323,15 +339,16 @@ impl WrenchMap {
         terms(inputs.len()).iter().map(powers).collect()
     }
 
-    /// Returns the numbers of rows by use or status: `fitted`, `left_out`, then statuses of rows that are not used.
+    /// Returns the number of rows in the fit (`fitted`) and left out of the fit (`left_out`). The list
+    /// continues with the statuses of unused rows and their numbers.
     pub fn rows(&self) -> Vec<(&'static str, usize)> {
         let unused = self.unused.iter().map(|(status, rows)| (status.name(), *rows));
         [("fitted", self.fitted), ("left_out", self.left_out)].into_iter().chain(unused).collect()
     }
 }
 
-/// Returns the terms of a quadratic polynomial in this number of inputs. A term is given as the inputs that are
-/// multiplied.
+/// Returns the terms of a quadratic polynomial. `inputs` is the number of variables. Each term is the list of
+/// the variables that are multiplied.
 ///
 /// The terms are in the order 1, s1, s2, ..., s1², s1 s2, s1 s3, ..., s2², s2 s3, ...
 pub fn terms(inputs: usize) -> Vec<Vec<usize>> {
@@ -340,7 +357,7 @@ pub fn terms(inputs: usize) -> Vec<Vec<usize>> {
     std::iter::once(Vec::new()).chain(linear).chain(quadratic).collect()
 }
 
-/// Returns the smallest number of rows for a map with this number of terms.
+/// Returns the smallest number of rows that is sufficient to fit and test a map with this number of terms.
 fn needed(terms: usize) -> usize {
     // Of each LEFT_OUT rows, LEFT_OUT - 1 are in the fit.
     (terms + (terms - 1) / (LEFT_OUT - 1)).max(FEWEST_SAMPLES)
@@ -368,7 +385,7 @@ fn check(inputs: &[MapInput], samples: u32) -> Result<(), UserError> {
     Ok(())
 }
 
-/// Returns the parameters of the inputs, each with the values of the parameter at the samples.
+/// Returns the parameter index of each input, with the values of the input in all samples.
 fn sampled(inputs: &[MapInput], samples: u32) -> Vec<(usize, Vec<f64>)> {
     let sample = SamplePoints::new(Method::Sobol, SEED, samples.into(), inputs.len());
     let values = |dimension: usize, input: &MapInput| {
@@ -379,15 +396,15 @@ fn sampled(inputs: &[MapInput], samples: u32) -> Vec<(usize, Vec<f64>)> {
     inputs.iter().enumerate().map(|(place, input)| (input.parameter, values(place, input))).collect()
 }
 
-/// Returns the numbers of rows without a periodic motion, by status.
+/// Counts the rows without a periodic motion, separately for each status.
 fn unused(rows: &[Row]) -> Vec<(Status, usize)> {
     let others = Status::ALL.into_iter().filter(|status| *status != Status::Periodic);
     let counted = others.map(|status| (status, rows.iter().filter(|row| row.status == status).count()));
     counted.filter(|(_, rows)| *rows > 0).collect()
 }
 
-/// Returns the solution of an overdetermined system with the smallest sum of squared errors; `None` if the solution is
-/// not unique.
+/// Returns the least-squares solution of an overdetermined linear system, or `None` if the solution is not
+/// unique.
 fn least_squares(matrix: DMatrix<f64>, sides: &DMatrix<f64>) -> Option<DMatrix<f64>> {
     let decomposed = matrix.svd(true, true);
     let singular = &decomposed.singular_values;
@@ -410,7 +427,7 @@ mod tests {
         (0..samples as usize).map(|index| axis.iter().map(|(_, list)| list[index]).collect()).collect()
     }
 
-    /// A quadratic function of scaled inputs, with different coefficients for each component.
+    /// Returns a coefficient of a test polynomial, different for each component and term.
     fn quadratic(component: usize, term: usize) -> f64 {
         libm::sin(1.0 + 3.7 * component as f64 + 1.3 * term as f64)
     }

@@ -1,17 +1,18 @@
-//! The result of an optimisation problem.
+//! The types that contain the result of an optimisation.
 
 use flap_core::simulate::{NoSlope, Row};
 
-/// The result of a search for an optimum, as a status of one word.
+/// The status of an optimisation, which describes if an optimum was found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// The derivatives show that no small change of the design is better. Differences of rows replace missing
-    /// derivatives.
+    /// The derivatives show that no small change of the design improves the goal. Missing derivatives are
+    /// replaced by differences between rows.
     Optimal,
-    /// The best point that was found. The derivatives do not confirm this point, because the search ended
-    /// early or a neighbour has no periodic motion.
+    /// The point is the best point that the search computed, but the derivatives do not confirm an optimum.
+    /// Either the search ended early, or a neighbouring point has no periodic motion.
     Approximate,
-    /// No point satisfies all conditions. The point has the smallest violation of the conditions.
+    /// The search found no point that satisfies all conditions. The result is the point that violates the
+    /// conditions least.
     Infeasible,
 }
 
@@ -19,7 +20,7 @@ impl Status {
     /// All statuses.
     pub const ALL: [Status; 3] = [Status::Optimal, Status::Approximate, Status::Infeasible];
 
-    /// The name of this variant in results.
+    /// The word that stands for this value in results.
     pub fn name(self) -> &'static str {
         match self {
             Status::Optimal => "optimal",
@@ -29,19 +30,19 @@ impl Status {
     }
 }
 
-/// The kind of a bound or limit.
+/// The kind of a restriction: a condition, or an end of an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Edge {
-    /// A condition.
+    /// A condition restricts the optimum.
     Limit,
-    /// The smallest value of an axis.
+    /// The smallest value of an axis restricts the optimum.
     Smallest,
-    /// The largest value of an axis.
+    /// The largest value of an axis restricts the optimum.
     Largest,
 }
 
 impl Edge {
-    /// The name of this variant in results.
+    /// The word that stands for this value in results.
     pub fn name(self) -> &'static str {
         match self {
             Edge::Limit => "limit",
@@ -51,93 +52,99 @@ impl Edge {
     }
 }
 
-/// A bound or limit that restricts the optimum.
+/// A condition or an end of an axis that restricts the optimum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Active {
-    /// The kind of the bound or limit.
+    /// The kind of the restriction.
     pub edge: Edge,
-    /// The condition, or the parameter of the axis.
+    /// The text of the condition, or the name of the axis's parameter.
     pub name: String,
-    /// The number in the condition, or the value at the end of the axis in SI units.
+    /// The value of the limit: one side of the comparison in the condition, or the end of the axis in SI
+    /// units.
     pub limit: f64,
-    /// The Lagrange multiplier: the change of the optimal value of the goal per unit of the limit.
+    /// The Lagrange multiplier: the change of the goal at the optimum if the limit increases by one unit.
     pub per_unit: f64,
-    /// The change of the optimal number in per cent of its magnitude, per per cent of the limit.
+    /// The change of the goal at the optimum, in per cent, if the limit increases by 1 %.
     pub percent: f64,
 }
 
-/// A condition at the optimum.
+/// A comparison in the conditions, with its values at the optimum.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitAt {
-    /// The comparison as the user wrote it, or the name of a condition of the grid.
+    /// The comparison as the user wrote it, or the name of the condition in the grid file.
     pub text: String,
-    /// The values of the side that must be smaller, and of the side that must be larger.
+    /// The values of both sides of the comparison: first the side that must be smaller, then the side that
+    /// must be larger.
     pub sides: [f64; 2],
-    /// The amount by which the limit is exceeded, as a fraction of the limit; zero if the condition holds.
+    /// If the comparison is not satisfied, the excess over the limit as a fraction of the limit. Otherwise
+    /// zero.
     pub excess: f64,
 }
 
-/// An optimum at which one or more searches end.
+/// A local optimum, at which one or more searches ended.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalOptimum {
-    /// The value of the goal at this optimum.
+    /// The value of the goal at this local optimum.
     pub goal: f64,
     /// The varied parameters and their values.
     pub varied: Vec<(usize, f64)>,
-    /// True if all conditions hold at this optimum.
+    /// True if this local optimum satisfies all conditions.
     pub is_feasible: bool,
-    /// The number of searches that end at this optimum.
+    /// The number of searches that ended at this local optimum.
     pub starts: usize,
 }
 
-/// The best point.
+/// The best point that an optimisation found, with details of the search.
 #[derive(Clone, Debug)]
 pub struct Optimum {
-    /// The status of the result, as one word.
+    /// The status of the optimisation.
     pub status: Status,
     /// The value of the goal at the best design.
     pub goal: f64,
-    /// Value of each parameter, in the order of the parameters.
+    /// The values of all parameters of the best design, in the order of the parameter table.
     pub values: Vec<f64>,
-    /// The row of the best design: the measures of the model, then the measures of the plan.
+    /// The row of the best design. The measures of the model come first, then the measures that the grid file
+    /// defines.
     pub row: Row,
     /// The varied parameters and their values.
     pub varied: Vec<(usize, f64)>,
-    /// The varied parameters whose value is at an end of the axis, with the smallest and the largest value of the axis.
+    /// The varied parameters whose best value is at an end of their axis, with the smallest and the largest
+    /// value of the axis.
     pub at_end: Vec<(usize, [f64; 2])>,
-    /// The bounds and limits that restrict the best design.
+    /// The conditions and ends of axes that restrict the best design.
     pub active: Vec<Active>,
-    /// All conditions.
+    /// All comparisons in the conditions, with their values at the best design.
     pub limits: Vec<LimitAt>,
-    /// All optima at which the searches end, beginning with the best optimum.
+    /// All local optima at which searches ended, beginning with the best.
     pub optima: Vec<LocalOptimum>,
-    /// Number of starts from which a search ran.
+    /// Number of points from which a search started.
     pub starts: usize,
-    /// Number of points of the grid, and number of grid points that were computed.
+    /// Number of points of the grid.
     pub points: u64,
-    /// See [`Optimum::points`].
+    /// Number of grid points that were computed to choose the starts of the searches.
     pub computed: u64,
-    /// Total number of computed rows.
+    /// Number of all computed rows.
     pub rows: u64,
     /// Number of computed rows with derivatives.
     pub sloped: u64,
-    /// The reasons for missing derivatives.
+    /// The reasons why derivatives were missing in the search that found the best design.
     pub missing: Vec<NoSlope>,
-    /// True if the search ended with a pattern search, which needs no derivatives.
+    /// True if the search for the best design ended with a pattern search, which needs no derivatives.
     pub is_polished: bool,
-    /// The gain that the derivatives predict along an axis, as a fraction of the goal per width of the axis.
+    /// The largest gain that the derivatives still predict if one parameter changes by the width of its axis,
+    /// as a fraction of the goal.
     pub left_over: f64,
 }
 
 impl Optimum {
-    /// True if the point satisfies all conditions.
+    /// True if the best point satisfies all conditions.
     pub fn is_feasible(&self) -> bool {
         self.status != Status::Infeasible
     }
 }
 
 impl Active {
-    /// The effect of the bound or limit on the optimal value of `goal`, as a sentence without a full stop.
+    /// Describes the effect of the limit on the optimal value of `goal`, as a sentence without a full stop.
     pub fn sentence(&self, goal: &str) -> String {
         let Active { name, .. } = self;
         let of = match self.edge {

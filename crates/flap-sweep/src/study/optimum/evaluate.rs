@@ -1,4 +1,4 @@
-//! Rows and derivatives at the points of a problem's region.
+//! Computes rows and derivatives at the points that an optimisation tries.
 
 use std::cell::{Cell, RefCell};
 use std::cmp::Ordering;
@@ -12,34 +12,41 @@ use crate::derivative::reasons_of;
 use crate::plan::Plan;
 use crate::run::{Outcome, RunError, RunOptions, alone};
 
-/// The step of the differences, in coordinates, that replace a missing derivative of a row.
+/// If a row has no derivative, flap computes a difference between two rows with this distance between their
+/// coordinates.
 const STEP: f64 = 2e-3;
 
-/// The step of the differences for designs at their resonance or at hover, because the searches for both have errors.
+/// For designs at resonance or at hover, this distance replaces [`STEP`]. The distance is larger than
+/// [`STEP`], because the computed resonance and the computed hover have numerical errors.
 const STEP_WITH_SEARCH: f64 = 2e-2;
 
-/// A point of the region with its row.
+/// A point that the optimisation has computed.
 #[derive(Clone, Debug)]
 pub(super) struct Trial {
     pub(super) coordinates: Vec<f64>,
-    /// Values of the choices, see [`Region::choice`](super::region::Region::choice).
+    /// Values of the parameters that are tried one by one (see
+    /// [`Region::choice`](super::region::Region::choice)).
     pub(super) choice: Vec<f64>,
     pub(super) row: Row,
-    /// The goal: the number that must be largest or smallest.
+    /// The value of the goal at this point.
     pub(super) goal: f64,
-    /// Both sides of each limit: first the side that must be smaller, then the side that must be larger.
+    /// The values of both sides of each limit: first the side that must be smaller, then the side that must
+    /// be larger.
     pub(super) sides: Vec<[f64; 2]>,
-    /// The largest relative excess over a limit. The excess is zero if all limits hold, and infinite if the point has
-    /// no periodic motion.
+    /// The largest relative excess over a limit. The excess is zero if the point satisfies all limits, and
+    /// infinite if the point has no periodic motion.
     pub(super) excess: f64,
-    /// Derivatives with respect to each coordinate: of the goal, then of the distance from each limit.
+    /// The first list contains the derivatives of the goal with respect to each coordinate. The next lists
+    /// contain the derivatives of the distance from each limit.
     pub(super) slopes: Vec<Vec<f64>>,
-    /// True if zeros replace slopes, because the row has no derivative and both neighbours have no periodic motion.
+    /// True if some derivatives are unknown and set to zero. The cause is a row without a derivative, if no
+    /// neighbouring point has a periodic motion.
     pub(super) lacks_slopes: bool,
 }
 
 impl Trial {
-    /// The point with the given row of a plan that contains the problem's measures.
+    /// Returns the point with the given row. The measures of the row must contain the goal and both sides of
+    /// each limit.
     pub(super) fn new(problem: &Problem, coordinates: Vec<f64>, choice: Vec<f64>, row: Row) -> Trial {
         let goal_index = problem.goal_index();
         let known = row.status == Status::Periodic && row.measures.len() > goal_index;
@@ -59,8 +66,8 @@ impl Trial {
         Trial { coordinates, choice, row, goal, sides, excess, slopes: Vec::new(), lacks_slopes: false }
     }
 
-    /// True if the point is better than another point: it is feasible with a better goal, or closer to a feasible
-    /// point.
+    /// True if this point is better than `other`. Of two feasible points, the point with the better goal is
+    /// better. Otherwise the point with the smaller excess is better.
     pub(super) fn is_better(&self, problem: &Problem, other: &Trial) -> bool {
         if self.excess > 0.0 || other.excess > 0.0 {
             return self.excess < other.excess;
@@ -68,34 +75,36 @@ impl Trial {
         problem.aim.sign() * self.goal < problem.aim.sign() * other.goal
     }
 
-    /// The order of two points: the point with the smaller excess is first; for equal excesses, the point with the
-    /// better goal is first.
+    /// Compares two points for sorting: the point with the smaller excess comes first. If the excesses are
+    /// equal, the point with the better goal comes first.
     pub(super) fn order(&self, problem: &Problem, other: &Trial) -> Ordering {
         let goal = |trial: &Trial| problem.aim.sign() * trial.goal;
         self.excess.total_cmp(&other.excess).then(goal(self).total_cmp(&goal(other)))
     }
 
-    /// The distance from a limit, divided by the size of the limit. The distance is negative where the limit is
-    /// exceeded.
+    /// The distance of the point from a limit, divided by the size of the limit. The distance is negative if
+    /// the point exceeds the limit.
     pub(super) fn margin(&self, problem: &Problem, number: usize) -> f64 {
         let sides = self.sides[number];
         (sides[1] - sides[0]) / problem.limits[number].scale(sides)
     }
 }
 
-/// The rows of one refinement, in which all rows have the same options of the choices.
+/// Computes and stores the rows of one refinement. All rows have the same values of the parameters in
+/// `choice`.
 pub(super) struct Evaluator<'p> {
     pub(super) problem: &'p Problem,
     options: &'p RunOptions,
     choice: Vec<f64>,
     interrupted: Interrupt<'p>,
     known: RefCell<Vec<Rc<Trial>>>,
-    /// Number of computed rows, and number of computed rows with derivatives.
+    /// Number of computed rows.
     pub(super) rows: Cell<u64>,
+    /// Number of computed rows with derivatives.
     pub(super) sloped: Cell<u64>,
-    /// Reasons for missing derivatives.
+    /// The reasons why derivatives of computed rows are missing.
     missing: RefCell<BTreeSet<NoSlope>>,
-    /// True if differences of rows have replaced derivatives.
+    /// True if a missing derivative was replaced by a difference between rows.
     pub(super) has_differences: Cell<bool>,
     failure: RefCell<Option<RunError>>,
 }
@@ -121,22 +130,23 @@ impl<'p> Evaluator<'p> {
         }
     }
 
-    /// The reasons for missing derivatives.
+    /// Returns the reasons why derivatives of computed rows are missing.
     pub(super) fn missing(&self) -> Vec<NoSlope> {
         self.missing.borrow().iter().copied().collect()
     }
 
-    /// The error that ended the work, if an error ended the work.
+    /// Returns the last error of the runner, if the rows of a point could not be computed.
     pub(super) fn failure(&self) -> Option<RunError> {
         self.failure.take()
     }
 
-    /// The point at the given coordinates.
+    /// Returns the point at the given coordinates. A stored point is not computed again.
     pub(super) fn at(&self, coordinates: &[f64]) -> Rc<Trial> {
         self.find(coordinates, false)
     }
 
-    /// The point at the given coordinates, with derivatives if the motion of the point is periodic.
+    /// Returns the point at the given coordinates. If the motion of the point is periodic, the point also has
+    /// derivatives.
     pub(super) fn with_slopes(&self, coordinates: &[f64]) -> Rc<Trial> {
         self.find(coordinates, true)
     }
@@ -163,7 +173,8 @@ impl<'p> Evaluator<'p> {
         trial
     }
 
-    /// The row at the given coordinates. The row of a point that a condition excludes is invalid.
+    /// Computes the row at the given coordinates. If a condition excludes the point, the row has the status
+    /// `invalid`.
     fn row(&self, plan: &Plan, coordinates: &[f64]) -> Row {
         self.rows.set(self.rows.get() + 1);
         let excluded = || Row::invalid("a condition of the grid excludes the point");
@@ -183,8 +194,8 @@ impl<'p> Evaluator<'p> {
         }
     }
 
-    /// Returns the derivatives per coordinate, from the row or, if the row has no derivatives, from differences of
-    /// rows. The second result is [`Trial::lacks_slopes`].
+    /// Returns the values of [`Trial::slopes`] and [`Trial::lacks_slopes`]. The derivatives come from the
+    /// row. Derivatives that are missing in the row are computed as differences between rows.
     fn slopes(&self, trial: &Trial, is_sloped: bool) -> (Vec<Vec<f64>>, bool) {
         let Trial { coordinates, row, .. } = trial;
         let variables = &self.problem.region.variables;
@@ -228,8 +239,8 @@ impl<'p> Evaluator<'p> {
         (slopes, lacks_slopes)
     }
 
-    /// One-sided differences of rows along one coordinate, towards the inside of the region; `None` if both neighbours
-    /// have no periodic motion.
+    /// Computes one-sided differences along one coordinate, between the point and a neighbour within the
+    /// bounds. Returns `None` if no neighbour has a periodic motion.
     fn differences(&self, trial: &Trial, number: usize) -> Option<Vec<f64>> {
         let quantities = |trial: &Trial| -> Vec<f64> {
             std::iter::once(trial.goal).chain(trial.sides.iter().flatten().copied()).collect()

@@ -1,4 +1,5 @@
-//! The Pareto front of two goals: the best values of one goal for limits on the other goal.
+//! Computes the Pareto front of two goals: the best values of the first goal for several limits on the second
+//! goal.
 
 use super::answer::{Optimum, Status};
 use super::problem::{Aim, Problem, ProblemError};
@@ -6,60 +7,63 @@ use super::search::{Settings, optimise, optimise_from};
 use crate::plan::Plan;
 use crate::run::RunError;
 
-/// A goal: an expression, and the direction in which the value of the expression is better.
+/// A goal of an optimisation: an expression whose value must be as large or as small as possible.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Goal<'t> {
-    /// The expression.
+    /// The expression, as the user wrote it.
     pub text: &'t str,
-    /// The better direction.
+    /// The better direction: larger or smaller values of the expression.
     pub aim: Aim,
 }
 
-/// A front.
+/// A Pareto front of two goals.
 #[derive(Clone, Debug)]
 pub struct Front {
     /// The points of the front, from the best value of the first goal to the best value of the second goal.
     pub points: Vec<FrontPoint>,
-    /// Total number of computed rows.
+    /// Number of all computed rows.
     pub rows: u64,
     /// Number of computed rows with derivatives.
     pub sloped: u64,
 }
 
-/// A point of a front.
+/// A point of a Pareto front.
 #[derive(Clone, Debug)]
 pub struct FrontPoint {
-    /// The values of both goals.
+    /// The values of both goals at this point.
     pub goals: [f64; 2],
     /// The design with the best value of the first goal, for a limit on the second goal.
     pub best: Optimum,
 }
 
-/// The reason why there is no Pareto front.
+/// The reason why a Pareto front cannot be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum FrontError {
-    /// A goal or a condition has a mistake. The variant contains the index of the goal.
+    /// A goal or a condition is invalid. The variant contains the index of the goal, 0 or 1, and the
+    /// description of the mistake.
     #[error("{1}")]
     Problem(usize, ProblemError),
-    /// The rows of the problem could not be computed.
+    /// The runner could not compute rows.
     #[error(transparent)]
     Run(#[from] RunError),
 }
 
-/// The front of two goals within the axes of `plan`, under `conditions`, with at most `count` points. `count` is at
-/// least two.
+/// Computes the Pareto front of two goals within the axes of `plan`. All points satisfy the `conditions`. The
+/// front has at most `count` points, and values of `count` below 2 count as 2.
 ///
-/// Each point has the best value of the first goal for a limit on the second goal. The limits are evenly spaced. The
-/// search for a point starts from the neighbouring points of the front. A point that another point improves is left out.
-/// `stops` receives the number of finished points of the front and the number of all points. If `stops` returns true,
-/// the search ends.
+/// Each point has the best value of the first goal for a limit on the second goal. The limits are evenly
+/// spaced between the ends of the front. The search for a point starts from the previous point and from the
+/// last point of the front. A point is left out if a different point is at least as good in both goals and
+/// better in one goal. `stops` is called with the number of finished points of the front and the number of
+/// all points. If `stops` returns true, the computation ends without a result.
 ///
-/// Returns `None` if no start has a periodic motion, or if `stops` stopped the search.
+/// Returns `None` if no point has a periodic motion, or if `stops` returned true.
 ///
-/// If no design satisfies all conditions, the front has one point, which has the smallest violation of the conditions.
+/// If no design satisfies all conditions, the front consists of the one point that violates the conditions
+/// least.
 ///
 /// # Errors
-/// [`FrontError`].
+/// [`FrontError`] if a goal or a condition is invalid, or if rows cannot be computed.
 pub fn front(
     plan: &Plan,
     goals: [Goal<'_>; 2],
@@ -118,8 +122,8 @@ pub fn front(
     Ok(Some(front))
 }
 
-/// Returns the points for which no other point is better in one goal and at least as good in the other goal. Goals times
-/// `signs` are the smaller, the better.
+/// Returns the points that no other point dominates. The element of `signs` for a goal is 1 if smaller values
+/// of the goal are better, and -1 if larger values are better.
 fn not_improved(points: Vec<FrontPoint>, signs: [f64; 2]) -> Vec<FrontPoint> {
     let scores: Vec<[f64; 2]> =
         points.iter().map(|point| [0, 1].map(|goal| signs[goal] * point.goals[goal])).collect();

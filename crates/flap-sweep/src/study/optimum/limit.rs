@@ -1,22 +1,25 @@
-//! Conditions of a problem as limits. A limit has one number that must be smaller than another number.
+//! Converts the conditions of an optimisation into limits. In each limit, one expression must have a smaller
+//! value than a second expression.
 
 use std::ops::Range;
 
 use crate::notation::expression::{Comparison, Expression};
 
-/// A limit: one number must be smaller than another number.
+/// A limit of an optimisation: the value of one expression must be smaller than the value of a second
+/// expression.
 #[derive(Clone, Debug)]
 pub(super) struct Limit {
     /// The comparison as the user wrote it, or the name of a condition of the grid.
     pub(super) text: String,
     pub(super) comparison: Comparison,
-    /// The number on one side of the comparison, if this side is a constant.
+    /// The value of the constant side of the comparison, if one side is constant.
     constant: Option<f64>,
 }
 
 impl Limit {
-    /// The limits of a condition; `None` if the condition does not consist of comparisons that must all hold. `text`
-    /// returns the text of a comparison from the position of the comparison in the condition.
+    /// Returns one limit for each comparison in a condition. Returns `None` if the condition contains `or`,
+    /// `not`, `==` or `!=`. The function `text` returns the text of a comparison from its position in the
+    /// condition.
     pub(super) fn of_condition(
         condition: &Expression,
         text: impl Fn(Range<usize>) -> String,
@@ -29,8 +32,9 @@ impl Limit {
         Some(limits.collect())
     }
 
-    /// True if the side that must be larger is the limit of the other side. In this case, the larger side is a constant
-    /// or is on the right.
+    /// True if the limit is an upper limit: the side that must be larger limits the side that must be
+    /// smaller. If only one side of the comparison is constant, the constant side is the limit. If both sides
+    /// or no side is constant, the side on the right is the limit.
     pub(super) fn is_upper(&self) -> bool {
         let is_constant = |side: &Expression| side.reads().next().is_none();
         match [&self.comparison.more, &self.comparison.less].map(is_constant) {
@@ -40,13 +44,14 @@ impl Limit {
         }
     }
 
-    /// True if the sides satisfy the comparison.
+    /// True if the comparison holds for the two values.
     pub(super) fn holds(&self, [less, more]: [f64; 2]) -> bool {
         if self.comparison.is_strict { less < more } else { less <= more }
     }
 
-    /// The size by which the distance from the limit is divided: the constant side, or the larger side if no side is
-    /// constant.
+    /// The size of the limit, by which distances from the limit are divided. The size is the magnitude of the
+    /// constant side. If no side is constant, or the constant is zero, the size is the larger magnitude of
+    /// the two sides.
     pub(super) fn scale(&self, [less, more]: [f64; 2]) -> f64 {
         let sides = less.abs().max(more.abs());
         let sizes = [self.constant.map_or(0.0, f64::abs), sides];

@@ -1,9 +1,11 @@
-//! The best design within the axes of a plan.
+//! Finds the best design within the ranges of a plan's axes.
 //!
-//! The best design has the largest or smallest value of an expression, among all points that satisfy the conditions.
+//! Among the points that satisfy all conditions, the best design has the largest or the smallest value of an
+//! expression.
 //!
-//! The points of the plan are the starts of the searches. The best starts are refined by sequential quadratic
-//! programming with the exact derivatives of the rows. Every row belongs to a motion from rest, as in a sweep.
+//! The searches start from the best points of the plan's grid. Each search uses sequential quadratic
+//! programming with the exact derivatives of the rows. As in a sweep, the motion of every row is computed
+//! from rest.
 //!
 //! ```
 //! use flap_sweep::grid;

@@ -1,4 +1,4 @@
-//! The statement of a problem: a plan, the goal that must be largest or smallest, and limits.
+//! Defines an optimisation problem: a plan, a goal that must be as large or as small as possible, and limits.
 
 use flap_core::parameter::{Kind as ParameterKind, Parameter};
 
@@ -10,7 +10,7 @@ use crate::notation::text;
 use crate::plan::formula::{Condition, OwnMeasure};
 use crate::plan::{Plan, Value};
 
-/// The direction in which the goal is better: smaller or larger values.
+/// The direction of an optimisation: towards larger or smaller values of the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Aim {
     /// Larger values of the goal are better.
@@ -20,7 +20,7 @@ pub enum Aim {
 }
 
 impl Aim {
-    /// 1 if smaller values of the goal are better, otherwise -1.
+    /// Returns 1 if smaller values of the goal are better, and -1 if larger values are better.
     pub(super) fn sign(self) -> f64 {
         match self {
             Aim::Largest => -1.0,
@@ -29,51 +29,52 @@ impl Aim {
     }
 }
 
-/// The part of a problem statement that contains a mistake.
+/// The part of an optimisation problem that contains a mistake.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ProblemPart {
-    /// The grid.
+    /// The grid file contains the mistake.
     Plan,
-    /// The goal: the number that must be largest or smallest.
+    /// The expression of the goal contains the mistake.
     Goal,
-    /// A condition. The variant contains the index of the condition.
+    /// The condition with this index contains the mistake.
     Condition(usize),
 }
 
-/// A mistake in the statement of a problem.
+/// A mistake in the definition of an optimisation problem.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct ProblemError {
     /// The part of the problem that contains the mistake.
     pub part: ProblemPart,
-    /// The mistake.
+    /// Description of the mistake.
     pub message: String,
-    /// Advice for the user, if there is advice for this mistake.
+    /// Advice how to correct the mistake. `None` if flap has no advice.
     pub help: Option<String>,
 }
 
-/// A problem that has passed every check.
+/// An optimisation problem without mistakes.
 #[derive(Clone)]
 pub struct Problem {
     /// The user's plan.
     pub(super) plan: Plan,
-    /// The plan whose rows contain, after the measures, the goal and both sides of each limit. This plan has no
-    /// conditions that are limits of the problem.
+    /// A copy of `plan` whose rows contain additional measures: the goal and both sides of each limit. The
+    /// copy has only those conditions that are not limits of the problem.
     pub(super) measured: Plan,
-    /// The plan `measured` with derivatives of the measures with respect to the parameters of the region; `None` if
-    /// rows have no derivatives.
+    /// A copy of `measured` whose rows also contain derivatives of the additional measures with respect to
+    /// the varied parameters. `None` if rows have no derivatives.
     pub(super) sloped: Option<Plan>,
     pub(super) region: Region,
     pub(super) aim: Aim,
     pub(super) goal: String,
     value: Expression,
     pub(super) limits: Vec<Limit>,
-    /// Smallest size of the goal, see [`Problem::size`].
+    /// Lower limit of the size of the goal (see [`Problem::size`]).
     least_size: f64,
 }
 
 impl Problem {
-    /// Returns the problem with a smallest size of the goal: a thousandth of the median magnitude of these `goals`.
+    /// Returns the problem with a new lower limit for the size of the goal: a thousandth of the median
+    /// magnitude of `goals`.
     pub(super) fn sized_by(&self, goals: impl Iterator<Item = f64>) -> Problem {
         let mut sizes: Vec<f64> = goals.map(f64::abs).collect();
         sizes.sort_by(f64::total_cmp);
@@ -81,19 +82,21 @@ impl Problem {
         Problem { least_size: 1e-3 * median, ..self.clone() }
     }
 
-    /// Returns the number to which changes of the goal are compared: the magnitude of the goal, but at least `least_size`.
+    /// Returns the size of the goal, by which changes of the goal are divided. The size is the magnitude of
+    /// the goal, but at least `least_size`.
     ///
-    /// At the best point of a goal that is a squared difference, the goal is zero.
+    /// The lower limit is necessary because some goals are zero at the optimum, for example a squared
+    /// difference.
     pub(super) fn size(&self, goal: f64) -> f64 {
         let size = goal.abs().max(self.least_size);
         if size == 0.0 { 1.0 } else { size }
     }
 
-    /// The problem of the point of `plan` with the best value of the expression `goal`. The point must satisfy the
-    /// `conditions` and the conditions of the plan.
+    /// Returns the problem of finding the point within the axes of `plan` with the best value of the
+    /// expression `goal`. The point must satisfy the `conditions` and the conditions of the plan.
     ///
     /// # Errors
-    /// [`ProblemError`] for the first mistake.
+    /// [`ProblemError`] with the first mistake that is found.
     pub fn new(plan: Plan, goal: &str, aim: Aim, conditions: &[String]) -> Result<Problem, ProblemError> {
         let region = Region::of(&plan).map_err(|parameter| without_bounds(&plan.parameters()[parameter]))?;
         if plan.axes().as_slice().is_empty() {
@@ -147,22 +150,22 @@ impl Problem {
         Ok(Problem { plan, measured, sloped, region, aim, goal, value, limits, least_size: 0.0 })
     }
 
-    /// The plan whose points are the starts.
+    /// Returns the plan with the axes of the problem.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
 
-    /// The goal that must be largest or smallest, as the user wrote it.
+    /// Returns the expression of the goal as the user wrote it.
     pub fn goal(&self) -> &str {
         &self.goal
     }
 
-    /// The direction in which the goal is better.
+    /// Returns the direction of the optimisation: towards larger or smaller values of the goal.
     pub fn aim(&self) -> Aim {
         self.aim
     }
 
-    /// The value of the goal at the best design of another problem of the same plan.
+    /// Returns the value of this problem's goal at the best design of a different problem with the same plan.
     pub fn value(&self, best: &Optimum) -> f64 {
         let measures = &best.row.measures;
         let body = self.plan.body();
@@ -172,13 +175,13 @@ impl Problem {
         self.value.value(&known)
     }
 
-    /// True if rows have derivatives.
+    /// True if rows contain derivatives with respect to the varied parameters.
     pub fn has_slopes(&self) -> bool {
         self.sloped.is_some()
     }
 
-    /// The index of the goal among the measures of rows. In the measures, the expressions of both sides of each limit
-    /// follow the expression of the goal.
+    /// The index of the goal in the measures of a row. After the goal, the measures contain the values of
+    /// both sides of each limit.
     pub(super) fn goal_index(&self) -> usize {
         self.plan.rows().columns().len() + self.plan.measures().len()
     }
@@ -192,7 +195,7 @@ fn without_bounds(parameter: &Parameter) -> ProblemError {
     }
 }
 
-/// The parsed expression `text`, which must be of the given kind.
+/// Parses the expression `text`. The result must be a number or a condition, as `wanted` requires.
 fn parsed(plan: &Plan, text: &str, part: ProblemPart, wanted: Kind) -> Result<Expression, ProblemError> {
     let names = Names { plan };
     let refused = |message: String, help: Option<String>| ProblemError { part, message, help };
@@ -216,7 +219,8 @@ fn parsed(plan: &Plan, text: &str, part: ProblemPart, wanted: Kind) -> Result<Ex
     })
 }
 
-/// The names that a problem may use: parameters, measures of the model, and measures of the plan.
+/// The names that goals and conditions may contain: parameters, measures of the model, and measures that the
+/// grid file defines.
 struct Names<'p> {
     plan: &'p Plan,
 }

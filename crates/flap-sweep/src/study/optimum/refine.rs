@@ -1,4 +1,5 @@
-//! The refinement of a start: sequential quadratic programming, then a pattern search if derivatives are missing.
+//! Searches the optimum from one start by sequential quadratic programming. If derivatives are missing or do
+//! not confirm the optimum, a pattern search continues.
 
 use std::cell::RefCell;
 use std::rc::Rc;
@@ -10,50 +11,53 @@ use super::evaluate::{Evaluator, Trial};
 use super::problem::Problem;
 use super::sensitivity::{CONVERGED, active};
 
-/// Distance that the search keeps from a limit, as a fraction of the limit's size. With this clearance, the optimum
-/// satisfies the limit in spite of rounding.
+/// Clearance: the smallest distance between the optimum and a limit, as a fraction of the limit's size. With
+/// this clearance, the optimum satisfies the limit in spite of rounding errors.
 const CLEARANCE: f64 = 1e-6;
 
-/// Allowed error of the clearance, as a fraction of the limit's size. The errors of rows are about as large as this
-/// allowed error.
+/// A point is also accepted if its distance from the limit is smaller than the clearance by this fraction of
+/// the limit's size. The numerical errors of rows are about as large as this fraction.
 const CLEARANCE_ERROR: f64 = 5e-7;
 
-/// The relative change of the goal below which a refinement ends.
+/// A refinement ends when the relative change of the goal is smaller than this value.
 const SMALL_CHANGE: f64 = 1e-6;
 
-/// The change of coordinates below which a refinement ends.
+/// A refinement ends when the change of every coordinate is smaller than this value.
 const SMALL_STEP: f64 = 1e-5;
 
 /// Largest number of points in one run of sequential quadratic programming.
 const MOST_TRIALS: usize = 60;
 
-/// Largest number of runs of sequential quadratic programming. Each run begins at the end point of the previous run.
+/// Largest number of runs of sequential quadratic programming. Each run begins at the best point of the
+/// previous run.
 const MOST_RUNS: usize = 4;
 
-/// The first and the smallest step of the pattern search, in coordinates.
+/// The first step length and the smallest step length of the pattern search, in units of the coordinates.
 const PATTERN: [f64; 2] = [0.02, 1e-4];
 
-/// Largest number of points of the pattern search, per direction.
+/// Largest number of points that the pattern search computes in each direction, on average.
 const MOST_TESTS: u64 = 40;
 
-/// The distance from a limit, divided by the limit's size, below which the pattern search follows the limit.
+/// If a point is closer to a limit than this fraction of the limit's size, the pattern search also tries
+/// steps along the limit.
 const NEAR: f64 = 0.02;
 
-/// The value of a function and of its constraints at a point. A constraint is satisfied if its value is at most zero.
+/// The values of a function and of all constraints at one point, with their derivatives. A constraint is
+/// satisfied if its value is at most zero.
 struct Local {
     value: f64,
     slopes: Vec<f64>,
     constraints: Vec<(f64, Vec<f64>)>,
 }
 
-/// The end point of a refinement.
+/// The result of a refinement.
 pub(super) struct Refined {
     pub(super) best: Rc<Trial>,
-    /// True if the last steps were steps of a pattern search.
+    /// True if the refinement included a pattern search.
     pub(super) is_polished: bool,
 }
 
-/// The best point that is found from `start`.
+/// Returns the best point that a search from `start` finds.
 pub(super) fn refine(points: &Evaluator<'_>, start: &[f64]) -> Refined {
     let mut best = points.with_slopes(start);
     if start.is_empty() || best.excess.is_infinite() {
@@ -88,7 +92,8 @@ pub(super) fn refine(points: &Evaluator<'_>, start: &[f64]) -> Refined {
     Refined { best, is_polished }
 }
 
-/// The relative gain from one point to another point; infinite if only the second point is feasible.
+/// Returns the relative gain of the goal from the point `before` to the point `after`. If `before` exceeds a
+/// limit, the gain is infinite for a smaller excess of `after`, and otherwise zero.
 fn change(problem: &Problem, before: &Trial, after: &Trial) -> f64 {
     if before.excess > 0.0 {
         return if after.excess < before.excess { f64::INFINITY } else { 0.0 };
@@ -97,7 +102,8 @@ fn change(problem: &Problem, before: &Trial, after: &Trial) -> f64 {
     problem.aim.sign() * (before.goal - after.goal) / size
 }
 
-/// The best point and the last point of a run of sequential quadratic programming.
+/// Runs sequential quadratic programming from `begin`, and returns the best computed point and the last
+/// computed point.
 fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, clearance: f64) -> (Rc<Trial>, Rc<Trial>) {
     let problem = points.problem;
     let factor = problem.aim.sign() / problem.size(begin.goal);
@@ -136,8 +142,9 @@ fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, clearance: f64) -> (Rc<Tri
     (best.into_inner(), last.into_inner())
 }
 
-/// The point that exceeds its limits least, searched from a point that exceeds some limits. The search minimises one
-/// number: the distance by which all limits must be moved so that the point satisfies the limits.
+/// Starts at a point that exceeds some limits, and searches the point that exceeds the limits least. The
+/// search minimises the distance by which all limits must be moved so that the point satisfies the moved
+/// limits.
 fn approach(points: &Evaluator<'_>, begin: &Rc<Trial>) -> Rc<Trial> {
     let problem = points.problem;
     let dimensions = begin.coordinates.len();
@@ -172,7 +179,7 @@ fn approach(points: &Evaluator<'_>, begin: &Rc<Trial>) -> Rc<Trial> {
     best.into_inner()
 }
 
-/// Minimises the function `local` between `bounds`. The function returns `None` where it has no value.
+/// Minimises the function `local` within `bounds`. At points without a value, `local` returns `None`.
 fn solve(begin: &[f64], bounds: &[(f64, f64)], limits: usize, local: &dyn Fn(&[f64], bool) -> Option<Local>) {
     let put = |slopes: Option<&mut [f64]>, found: &[f64]| {
         if let Some(slopes) = slopes.filter(|slopes| slopes.len() == found.len()) {
@@ -208,7 +215,8 @@ fn solve(begin: &[f64], bounds: &[(f64, f64)], limits: usize, local: &dyn Fn(&[f
     let _ = minimize(value, begin, bounds, &constraints, (), MOST_TRIALS, Some(tolerances));
 }
 
-/// The best point of a pattern search from `best`: along the coordinates, and along the limits that are near.
+/// Runs a pattern search from `best` and returns the best point. The search tries steps along the coordinates
+/// and along nearby limits.
 fn pattern(points: &Evaluator<'_>, mut best: Rc<Trial>) -> Rc<Trial> {
     let problem = points.problem;
     let [mut step, smallest] = PATTERN;
@@ -238,7 +246,8 @@ fn pattern(points: &Evaluator<'_>, mut best: Rc<Trial>) -> Rc<Trial> {
     best
 }
 
-/// The coordinate directions, and each coordinate direction without its components normal to nearby limits.
+/// Returns the directions of all coordinates. The list also contains the projections of these directions onto
+/// the nearby limits.
 fn directions(problem: &Problem, at: &Trial) -> Vec<Vec<f64>> {
     let dimensions = at.coordinates.len();
     let axis = |number: usize| DVector::from_fn(dimensions, |row, _| if row == number { 1.0 } else { 0.0 });

@@ -1,5 +1,5 @@
-//! The region of a problem: parameters that vary continuously between two values, and choices of which each option is
-//! tried.
+//! The region in which an optimum is sought. Some parameters vary continuously between two values, and for
+//! the remaining parameters each value is tried.
 
 use flap_core::parameter::{Kind, Parameter, Range};
 
@@ -7,22 +7,22 @@ use crate::plan::Plan;
 use crate::plan::axes::{Axis, Values};
 use crate::plan::sample::Distribution;
 
-/// The distance from 0 and 1 within which a coordinate is treated as an end of its range, because searches miss the end
-/// by rounding.
+/// A coordinate that is closer to 0 or 1 than this distance counts as 0 or 1. The tolerance is necessary
+/// because rounding errors move a coordinate away from exactly 0 or 1.
 const AT_END: f64 = 1e-9;
 
-/// A parameter that varies continuously between two values, with a coordinate from 0 to 1.
+/// A parameter that varies continuously between two values. A coordinate from 0 to 1 represents the value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Variable {
     pub(super) parameter: usize,
     pub(super) from: f64,
     pub(super) to: f64,
-    /// True if equal steps of the coordinate have equal ratios of values.
+    /// True if the scale is logarithmic: equal steps of the coordinate multiply the value by equal factors.
     is_log: bool,
 }
 
 impl Variable {
-    /// Returns the parameter's value at a coordinate.
+    /// Returns the parameter's value for a coordinate between 0 and 1.
     pub(super) fn value(&self, coordinate: f64) -> f64 {
         let Variable { from, to, is_log, .. } = *self;
         let value = match coordinate {
@@ -34,7 +34,7 @@ impl Variable {
         value.clamp(from, to)
     }
 
-    /// Returns the coordinate of a parameter's value.
+    /// Returns the coordinate, between 0 and 1, for a value of the parameter.
     pub(super) fn coordinate(&self, value: f64) -> f64 {
         let Variable { from, to, is_log, .. } = *self;
         let share = if is_log {
@@ -52,19 +52,20 @@ impl Variable {
     }
 }
 
-/// The region of a problem.
+/// The region in which an optimum is sought.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Region {
     pub(super) variables: Vec<Variable>,
-    /// Parameters whose values are tried one by one: choices, whole numbers, and parameters that vary together.
+    /// Indices of the parameters whose values are tried one by one. Single values are tried for choices,
+    /// whole numbers, parameters with one value, and parameters of an axis with several parameters.
     pub(super) enumerated: Vec<usize>,
 }
 
 impl Region {
-    /// The region of a plan's axes.
+    /// Returns the region that the axes of a plan span.
     ///
     /// # Errors
-    /// The error for a parameter whose values have no bounds.
+    /// The index of a parameter whose distribution has no smallest and largest value.
     pub(super) fn of(plan: &Plan) -> Result<Region, usize> {
         let mut region = Region::default();
         for axis in plan.axes().as_slice() {
@@ -109,17 +110,18 @@ impl Region {
         Ok(())
     }
 
-    /// The coordinates of a point with the given values.
+    /// Returns the coordinates of the point with the given parameter values.
     pub(super) fn coordinates(&self, values: &[f64]) -> Vec<f64> {
         self.variables.iter().map(|variable| variable.coordinate(values[variable.parameter])).collect()
     }
 
-    /// The values of the choices of a point.
+    /// Returns the values of the parameters in `enumerated` from the parameter values of a point.
     pub(super) fn choice(&self, values: &[f64]) -> Vec<f64> {
         self.enumerated.iter().map(|&parameter| values[parameter]).collect()
     }
 
-    /// The varied parameters with their values at the given coordinates and the given options of the choices.
+    /// Returns the indices and values of all varied parameters. `coordinates` gives the values of continuous
+    /// parameters, and `choice` the values of the remaining parameters.
     pub(super) fn varied(&self, coordinates: &[f64], choice: &[f64]) -> Vec<(usize, f64)> {
         let continuous = self.variables.iter().zip(coordinates);
         let continuous = continuous.map(|(variable, &at)| (variable.parameter, variable.value(at)));

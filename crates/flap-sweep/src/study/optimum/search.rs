@@ -1,4 +1,4 @@
-//! The search: first rows of the grid, then refinements in parallel.
+//! Searches an optimum: computes the rows of the grid, and then refines the best points in parallel.
 
 use std::num::NonZeroUsize;
 use std::sync::Arc;
@@ -15,29 +15,29 @@ use super::starts;
 use crate::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use crate::run::{Run, RunError, RunOptions};
 
-/// Largest relative difference of the values, and largest difference of the coordinates, between ends of searches that
-/// count as one optimum.
+/// Tolerances with which two end points of searches count as one optimum. Each pair contains the largest
+/// relative difference of the goal and the largest difference of the coordinates.
 ///
-/// Two ends of searches count as one optimum if they satisfy one of the pairs of limits. If the values of the goal are
-/// closer to each other, the coordinates may differ more.
+/// Two end points count as one optimum if their differences are within the tolerances of one pair. If the
+/// difference of the goal is small, the coordinates may differ more.
 const SAME_OPTIMUM: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
 
-/// Settings of a search.
+/// Settings of an optimisation.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Threads and instructions.
+    /// Number of threads, instruction set, and further options of the runner.
     pub run: RunOptions,
-    /// Largest number of grid points from which a search starts.
+    /// Largest number of searches. Each search starts from a different grid point.
     pub starts: NonZeroUsize,
-    /// Largest number of grid points that are computed.
+    /// Largest number of grid points that are computed to choose the starts of the searches.
     pub points: u64,
 }
 
 impl Settings {
-    /// Default number of starts that are refined.
+    /// Default of [`Settings::starts`].
     pub const STARTS: usize = 8;
 
-    /// Default number of grid points that are computed.
+    /// Default of [`Settings::points`].
     pub const POINTS: u64 = 4096;
 }
 
@@ -48,7 +48,7 @@ impl Default for Settings {
     }
 }
 
-/// The end point of a refinement.
+/// The end point of a search, with statistics of the search.
 struct End {
     trial: Trial,
     missing: Vec<NoSlope>,
@@ -57,14 +57,15 @@ struct End {
     sloped: u64,
 }
 
-/// The best point of a problem; `None` if no start has a periodic motion, or the search was stopped.
+/// Returns the best point of an optimisation problem. Returns `None` if no grid point has a periodic motion,
+/// or if `stops` returned true.
 ///
-/// `stops` is called several times a second on this thread, with the number of finished points and starts, and the
-/// number of all points and starts.
-/// If `stops` returns true, the search ends. The answer does not depend on the number of threads.
+/// `stops` is called several times a second on the thread of the caller. The arguments of `stops` are the
+/// number of finished grid points and searches, and the number of all grid points and searches. If `stops`
+/// returns true, the optimisation ends without a result. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// [`RunError`] if a thread panics or cannot be started, or the model breaks its contract.
+/// [`RunError`] if a thread panics or cannot be started, or if the model returns wrong rows.
 pub fn optimise(
     problem: &Problem,
     settings: &Settings,
@@ -90,10 +91,11 @@ pub fn optimise(
     Ok(answer(problem, &ends, computed))
 }
 
-/// The best point of a problem, searched from the best designs of other problems of the same plan; see [`optimise`].
+/// Returns the best point of an optimisation problem, like [`optimise`]. The searches start from `designs`,
+/// which are results of problems with the same plan.
 ///
 /// # Errors
-/// As [`optimise`].
+/// The errors of [`optimise`].
 pub fn optimise_from(
     problem: &Problem,
     settings: &Settings,
@@ -111,13 +113,14 @@ pub fn optimise_from(
     Ok(ends.and_then(|ends| answer(problem, &ends, 0)))
 }
 
-/// The point from which a refinement begins.
+/// The point from which a search starts.
 struct StartPoint {
     coordinates: Vec<f64>,
     choice: Vec<f64>,
 }
 
-/// The end points of the refinements in the order of the starts; `None` if the search was stopped.
+/// Runs one search from each start, and returns the end points in the order of the starts. Returns `None` if
+/// `stops` returned true.
 fn refined(
     problem: &Arc<Problem>,
     settings: &Settings,
@@ -144,7 +147,7 @@ fn refined(
     Ok(Some(ends))
 }
 
-/// The end point of the refinement of one start.
+/// Runs the search from one start and returns its end point.
 fn end_of(
     problem: &Problem,
     options: &RunOptions,
@@ -166,7 +169,7 @@ fn end_of(
     }
 }
 
-/// The result of the problem, from the end points of all refinements.
+/// Returns the result of the optimisation, computed from the end points of all searches.
 fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
     let mut order: Vec<&End> = ends.iter().collect();
     order.sort_by(|one, other| one.trial.order(problem, &other.trial));
@@ -209,7 +212,8 @@ fn answer(problem: &Problem, ends: &[End], computed: u64) -> Option<Optimum> {
     })
 }
 
-/// Sets the drive frequency to the resonance, if the design is run at its resonance.
+/// If designs are run at their resonance, sets the drive frequency in `values` to the resonance in
+/// `measures`.
 fn set_resonance(problem: &Problem, measures: &[f64], values: &mut [f64]) {
     let Some(resonance) = problem.plan.resonance() else { return };
     let place = resonance.columns().iter().position(|column| column.name == RESONANCE_HZ);
@@ -220,7 +224,8 @@ fn set_resonance(problem: &Problem, measures: &[f64], values: &mut [f64]) {
     }
 }
 
-/// The varied numbers whose value is at an end of the axis, with both ends of the axis.
+/// Returns the varied parameters whose value is at an end of their axis, with both ends of the axis. Choices
+/// are left out.
 fn at_end(problem: &Problem, varied: &[(usize, f64)]) -> Vec<(usize, [f64; 2])> {
     let region = &problem.region;
     let continuous =
@@ -244,7 +249,8 @@ fn at_end(problem: &Problem, varied: &[(usize, f64)]) -> Vec<(usize, [f64; 2])> 
     continuous.chain(counts).filter(is_at_end).collect()
 }
 
-/// The distinct end points of the searches, in the given order.
+/// Returns the different end points of the searches, in the given order. End points that are almost equal
+/// count as one optimum.
 fn optima(problem: &Problem, order: &[&End]) -> Vec<LocalOptimum> {
     let mut found: Vec<(LocalOptimum, &Trial)> = Vec::new();
     for end in order {

@@ -1,4 +1,5 @@
-//! The bounds and limits that restrict an optimum, and the Lagrange multipliers of these limits.
+//! Computes which conditions and ends of axes restrict an optimum, and the Lagrange multiplier of each
+//! restriction.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,28 +7,32 @@ use super::answer::{Active, Edge};
 use super::evaluate::Trial;
 use super::problem::Problem;
 
-/// The distance from a limit, divided by the limit's size, below which the limit may be active.
+/// A limit can restrict the optimum if the distance from the limit, divided by the limit's size, is below
+/// this value.
 const NEAR: f64 = 1e-4;
 
-/// The distance from a limit below which the limit may be active, if a pattern search found the end point.
+/// If a pattern search found the optimum, this value replaces [`NEAR`], because the optimum is less accurate.
 const NEAR_PATTERN: f64 = 5e-3;
 
-/// The distance from a bound, in coordinates, below which the bound may be active.
+/// An end of an axis can restrict the optimum if the coordinate is closer to the end than this distance.
 const AT_BOUND: f64 = 1e-6;
 
-/// Largest gain that derivatives may predict at an optimum, as a fraction of the goal per width of an axis.
+/// An optimum is confirmed if the derivatives predict at most this relative gain of the goal for a change by
+/// the width of an axis.
 pub(super) const CONVERGED: f64 = 0.02;
 
-/// A bound or limit that may restrict the optimum.
+/// A condition or an end of an axis that can restrict the optimum.
 #[derive(Clone, Copy)]
 enum Restriction {
     Limit(usize),
-    /// The index of the variable, and a flag that is true for the largest value of the variable.
+    /// The index of a continuous parameter. The flag is true for the largest value of the parameter, and
+    /// false for the smallest value.
     Bound(usize, bool),
 }
 
-/// The active bounds and limits of a point with derivatives, and the part of the goal's derivatives that these limits
-/// do not balance.
+/// Returns the restrictions of an optimum with their Lagrange multipliers. The second result is the largest
+/// gain that the derivatives still predict if one parameter changes by the width of its axis. The predicted
+/// gain is a fraction of the goal.
 pub(super) fn active(problem: &Problem, at: &Trial, is_polished: bool) -> (Vec<Active>, f64) {
     let Some(goal) = at.slopes.first() else { return (Vec::new(), f64::NAN) };
     let near = if is_polished { NEAR_PATTERN } else { NEAR };
@@ -83,8 +88,8 @@ pub(super) fn active(problem: &Problem, at: &Trial, is_polished: bool) -> (Vec<A
     (active, left_over)
 }
 
-/// The description of an active bound or limit. `multiplier` is the gain of the goal per unit by which the limit is
-/// relaxed.
+/// Describes a restriction of the optimum. `multiplier` is the gain of the goal if the restriction is relaxed
+/// by one unit.
 fn described(problem: &Problem, at: &Trial, restriction: Restriction, multiplier: f64) -> Active {
     // The change of the number itself, not the gain.
     let change = -problem.aim.sign() * multiplier;

@@ -1,4 +1,4 @@
-//! The starts of a problem: points of the grid, and the best distinct points among the grid points.
+//! Computes points of the grid, and chooses the best of them as starts of the searches.
 
 use super::evaluate::Trial;
 use super::problem::Problem;
@@ -6,10 +6,11 @@ use crate::plan::Plan;
 use crate::run::{Outcome, Run, RunError, RunOptions, rows};
 use crate::study::survey::spread;
 
-/// The smallest distance in coordinates between distinct starts with the same options of the choices.
+/// Two starts with equal values of the choices must differ by at least this distance in one coordinate.
 const DISTINCT: f64 = 0.2;
 
-/// The points of the grid that are computed: all points, or `most` points that are spread over the grid.
+/// Selects the points of the grid that are computed: all points, or about `most` points that are spread over
+/// the grid.
 pub(super) fn selected(plan: Plan, most: u64) -> Plan {
     let plan = plan.with_all_points();
     if plan.len() <= most {
@@ -22,11 +23,11 @@ pub(super) fn selected(plan: Plan, most: u64) -> Plan {
     plan.clone().with_points(list).unwrap_or(plan)
 }
 
-/// The rows of a plan's selected points that have a periodic motion. `stops` is called regularly. If `stops` returns
-/// true, the list ends early.
+/// Computes the selected points of a plan, and returns the points with a periodic motion. `stops` is called
+/// several times a second. If `stops` returns true, the computation ends early and the list is incomplete.
 ///
 /// # Errors
-/// As a sweep.
+/// [`RunError`] if a thread panics or cannot be started, or if the model returns wrong rows.
 pub(super) fn computed(
     problem: &Problem,
     plan: &Plan,
@@ -55,8 +56,8 @@ pub(super) fn computed(
     Ok(starts)
 }
 
-/// The best starts: first the best start of each choice, then further starts that are distinct from earlier starts. The
-/// list has at most `most` starts.
+/// Returns the best starts, at most `most`. The list begins with the best start for each combination of
+/// choices. Each further start is far from all earlier starts with the same choices.
 pub(super) fn best(problem: &Problem, mut starts: Vec<Trial>, most: usize) -> Vec<Trial> {
     // A stable sort: of equal starts the first one comes first.
     starts.sort_by(|one, other| one.order(problem, other));
@@ -78,7 +79,7 @@ pub(super) fn best(problem: &Problem, mut starts: Vec<Trial>, most: usize) -> Ve
     chosen
 }
 
-/// The largest difference between the coordinates of two points.
+/// Returns the largest difference between the coordinates of two points.
 pub(super) fn distance(one: &Trial, other: &Trial) -> f64 {
     let pairs = one.coordinates.iter().zip(&other.coordinates);
     pairs.map(|(one, other)| (one - other).abs()).fold(0.0, f64::max)

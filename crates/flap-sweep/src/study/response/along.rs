@@ -1,4 +1,4 @@
-//! The parameter that rises and falls in a response, and the values of this parameter.
+//! Determines the values of the parameter that rises and falls in a response.
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Point;
@@ -7,22 +7,23 @@ use crate::notation::UserError;
 use crate::plan::axes::Values;
 use crate::plan::{Admission, Along, Plan};
 
-/// Largest number of values on the upward branch.
+/// Largest number of parameter values on a branch.
 const MOST_VALUES: f64 = 1e6;
 
 impl Along {
-    /// Returns the followed parameter with steps `[from, to, step]` or the values of its axis, and the plan without
-    /// this axis.
+    /// Returns the followed parameter with its values, and the plan without the axis of this parameter. The
+    /// values come from `steps`, which is `[from, to, step]`. If `steps` is `None`, the values come from the
+    /// axis of the parameter.
     ///
-    /// The default `tolerance` is a sixteenth of the shortest step.
+    /// If `tolerance` is `None`, the tolerance is a sixteenth of the shortest step between values.
     ///
     /// # Errors
     /// [`UserError`] in one of the following cases:
     ///
-    /// - The parameter is a choice, or derived.
-    /// - The parameter is varied together with other parameters.
-    /// - The parameter has neither an axis nor steps.
-    /// - The parameter has fewer than two values.
+    /// - The parameter is a choice, or a formula determines the parameter.
+    /// - The axis of the parameter also varies further parameters.
+    /// - The parameter has no axis, and `steps` is `None`.
+    /// - The axis or `steps` contains fewer than two values, or `steps` contains more than a million steps.
     pub fn new(
         plan: Plan,
         parameter: usize,
@@ -65,12 +66,12 @@ impl Along {
         }
     }
 
-    /// Returns the parameter, from the table of the plan's model.
+    /// Returns the entry of the followed parameter in the plan's parameter table.
     pub fn parameter<'p>(&self, plan: &'p Plan) -> &'p Parameter<'p> {
         &plan.parameters()[self.parameter]
     }
 
-    /// Returns the value of each parameter of the model, for a design with the followed parameter at `value`.
+    /// Returns the values of all parameters of a design after the followed parameter is set to `value`.
     pub(super) fn values_at(&self, plan: &Plan, design: &Point, value: f64) -> Vec<f64> {
         let mut values = design.values.clone();
         values[self.parameter] = value;
@@ -78,7 +79,8 @@ impl Along {
         values
     }
 
-    /// Returns the decision on a design: the design is followed if any point of its curve is run.
+    /// Decides if the response of a design is computed. At least one value of the followed parameter must
+    /// give a possible point that no condition excludes.
     pub(super) fn judge(&self, plan: &Plan, design: &Point) -> Admission {
         let mut verdicts = self.values.iter().map(|&value| plan.judge(&self.values_at(plan, design, value)));
         let first = verdicts.next().unwrap_or(Admission::Runs);
@@ -104,7 +106,7 @@ fn steps(name: &str, [from, to, step]: [f64; 3]) -> Result<Vec<f64>, UserError> 
     Ok((0..count).map(|i| values.get(i)).collect())
 }
 
-/// Returns the values of an axis in ascending order.
+/// Returns the different values of an axis in ascending order.
 fn rising(name: &str, axis: &Values) -> Result<Vec<f64>, UserError> {
     let mut values: Vec<f64> = (0..axis.len()).map(|i| axis.get(i)).collect();
     values.sort_by(f64::total_cmp);

@@ -1,4 +1,5 @@
-//! Basins of attraction in bistable bands: the fraction of initial states whose motions settle on each branch.
+//! Computes the basins of attraction in bistable bands: the fraction of initial states from which the motion
+//! settles on each branch.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{
@@ -9,32 +10,34 @@ use super::curve::{Comparison, Curve, Step, compare};
 use super::run::Responses;
 use crate::plan::{Plan, sample};
 
-/// Number of samples of an orbit from which the range of the states is computed.
+/// Number of times in one period at which the states of an orbit are computed, to find their smallest and
+/// largest values.
 const SAMPLES: u32 = 64;
 
-/// Random initial states of basins.
+/// Number and seed of the random initial states with which basins of attraction are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Starts {
-    /// Number of initial states at each value.
+    /// Number of initial states at each value of the followed parameter.
     pub count: u32,
-    /// Seed of the random numbers.
+    /// Seed of the random initial states.
     pub seed: u64,
 }
 
-/// Basins of attraction at one value of the followed parameter at which both branches have different orbits.
+/// Basins of attraction of the two stable orbits at one value of the followed parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basin {
-    /// Value of the followed parameter.
+    /// Value of the followed parameter, in SI units.
     pub value: f64,
-    /// Number of initial states.
+    /// Number of initial states from which motions are computed.
     pub count: u32,
-    /// Numbers of motions that go to the orbit of the upward branch, to the orbit of the downward branch, and to
-    /// other motions.
+    /// Three numbers of motions: motions that settle on the orbit of the upward branch, on the orbit of the
+    /// downward branch, and on neither orbit.
     pub motions: [u32; 3],
 }
 
 impl Basin {
-    /// Returns the fractions of the motions that go to each orbit, each with its binomial standard error.
+    /// Returns the three numbers in `motions` as fractions of all motions, each with its binomial standard
+    /// error.
     pub fn shares(&self) -> [[f64; 2]; 3] {
         let count = f64::from(self.count);
         self.motions.map(|motions| {
@@ -45,15 +48,16 @@ impl Basin {
 }
 
 impl Responses<'_> {
-    /// Returns the basins of both branches at the values of `curve` at which the branches have different orbits, in
-    /// ascending order.
+    /// Computes the basins of attraction at each value of `curve` at which the two branches have different
+    /// stable orbits. The values are in ascending order.
     ///
-    /// The initial states are uniformly distributed over a box: the smallest and largest value of each state component on
-    /// both orbits. The motions are integrated period by period until they settle, because Newton's iteration may leave a
-    /// basin.
+    /// The initial states are uniformly distributed. For each state component, the range is from the smallest
+    /// to the largest value on both orbits. Each motion is integrated period by period until it settles.
+    /// Newton shooting is not used, because it may jump from one basin to the other basin.
     ///
     /// # Errors
-    /// [`Unfinished`] if the model computes only rows, if an orbit cannot be sampled, or after an interruption.
+    /// [`Unfinished`] if the model cannot compute motions over time, if the states of an orbit cannot be
+    /// computed, or after an interruption.
     pub fn basins(
         self,
         curve: &Curve,
@@ -110,14 +114,14 @@ fn ranges(plan: &Plan, run: &PointRun<'_>, orbits: [&Step; 2]) -> Result<Vec<[f6
     Ok(ranges)
 }
 
-/// Motions from random initial states at one value of the followed parameter.
+/// The motions from random initial states at one value of the followed parameter.
 struct Motions<'a> {
     ranges: Vec<[f64; 2]>,
     values: &'a [f64],
     orbits: [&'a Step; 2],
     sizes: &'a [f64],
     starts: Starts,
-    /// Number of the next initial state.
+    /// Index of the next initial state, from which no motion has started yet.
     next: u32,
     counts: [u32; 3],
     interrupted: Interrupt<'a>,

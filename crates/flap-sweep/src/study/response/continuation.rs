@@ -1,11 +1,11 @@
-//! Unstable orbits between the two motions of a bistable band.
+//! Computes the unstable orbits in a bistable band, which connect the two stable branches.
 //!
-//! At one end of a bistable band, a branch of orbits turns back and becomes unstable. At the other end of the band, the
-//! branch turns again and joins the other stable branch.
+//! At one end of a bistable band, the upward branch of stable orbits turns back and becomes unstable. At the
+//! opposite end of the band, the unstable branch turns again and continues as the downward branch.
 //!
-//! Pseudo-arclength continuation follows the branch (Keller, 1977). The unknowns are the state at the beginning
-//! of the period and the parameter. Each orbit is computed on a plane perpendicular to the secant through the last two
-//! orbits.
+//! The unstable orbits are computed by pseudo-arclength continuation (Keller, 1977). The unknowns are the
+//! state at the beginning of the period, and the followed parameter. Each orbit is sought on a plane that is
+//! perpendicular to the line through the last two orbits.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Period, Row, Status};
@@ -15,29 +15,31 @@ use super::curve::{Comparison, Curve, Step};
 use super::space::OrbitSpace;
 use crate::plan::{Along, Plan};
 
-/// Initial, shortest and longest distance between neighbouring orbits. A distance of 1 corresponds to the width of the
-/// band, and to the largest magnitude of a state component.
+/// Initial, shortest and longest distance between successive orbits of the continuation. The unit of the
+/// parameter's change is the width of the band. The unit of a state component's change is the largest
+/// magnitude of the component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.03];
 
-/// Largest number of orbits of a branch.
+/// Largest number of steps of the continuation in one band.
 const MOST: usize = 2000;
 
-/// Number of Newton iterations above which a step is repeated with a shorter step length. If Newton's method needs
-/// fewer than `QUICK` iterations, the next step is longer.
+/// If Newton's iteration does not converge within `SLOW` iterations, the step is repeated with half the
+/// length. If Newton's iteration needs at most `QUICK` iterations, the next step is longer.
 const SLOW: usize = 8;
 const QUICK: usize = 3;
 
-/// Change of the parameter for the derivative with respect to the parameter, relative to the width of the band.
+/// Change of the parameter with which the derivative with respect to the parameter is computed, relative to
+/// the width of the band.
 const CHANGE: f64 = 1e-3;
 
-/// Tolerances for the integration of drive periods, relative to the usual tolerances.
+/// The tolerances of the integration are the tolerances of the plan times this factor.
 ///
-/// The final states must change smoothly along the branch, so their errors must be far below `settle_tol`. With larger
-/// errors, a plane may contain no orbit.
+/// The errors of the integrated states must be far below `settle_tol`. With larger errors, Newton's iteration
+/// may find no orbit on a plane.
 const FINER: f64 = 1e-2;
 
-/// Returns the unstable orbits of all bistable bands of a curve. If the computation is interrupted, some orbits are
-/// missing.
+/// Returns the unstable orbits in all bistable bands of a curve. If the computation is interrupted, the list
+/// is incomplete.
 pub(super) fn unstable(
     plan: &Plan,
     along: &Along,
@@ -65,7 +67,7 @@ pub(super) fn unstable(
     found
 }
 
-/// An orbit on a branch.
+/// An orbit that Newton's iteration has found.
 struct Orbit {
     place: DVector<f64>,
     period: Period,
@@ -74,10 +76,11 @@ struct Orbit {
     rhs_evals: u64,
 }
 
-/// A branch of orbits is a curve in the space with one parameter, whose unit is the width of the band.
+/// Follows a branch of orbits, which is a curve in the space of states and one parameter. The unit of the
+/// parameter is the width of the band.
 impl OrbitSpace<'_, 1> {
-    /// Returns the orbits after `before` and `last` as long as the orbits are unstable. The list is empty if the branch
-    /// does not turn.
+    /// Continues a branch beyond its last two stable orbits, `before` and `last`, and returns the unstable
+    /// orbits that follow on the branch. The list is empty if the branch does not become unstable.
     fn turn(&self, before: &Step, last: &Step) -> Vec<Step> {
         let mut places = [before, last].map(|step| self.place(&step.row.state, [step.value]));
         let mut distance = STEPS[0];
@@ -109,8 +112,8 @@ impl OrbitSpace<'_, 1> {
         found
     }
 
-    /// Returns the orbit nearest to `guess` on the plane through `guess` perpendicular to `direction`, by Newton's
-    /// iteration.
+    /// Returns the orbit that Newton's iteration finds near `guess`, on the plane through `guess` that is
+    /// perpendicular to `direction`.
     fn correct(&self, guess: &DVector<f64>, direction: &DVector<f64>) -> Option<Orbit> {
         let n = self.states();
         let mut place = guess.clone();

@@ -1,4 +1,4 @@
-//! Response of one design, and the comparison of the two motions at the same drive.
+//! The response of one design, and the comparison of the motions of the upward and the downward branch.
 
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status};
@@ -6,35 +6,36 @@ use flap_core::simulate::{Point, Row, Status};
 use crate::plan::{Along, Plan};
 use crate::table::layout::{Cell, Layout, Place};
 
-/// A motion on a curve.
+/// One motion of a response, at one value of the followed parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
     /// Value of the followed parameter.
     pub value: f64,
-    /// Row of the motion.
+    /// Row with the status and the measures of the motion.
     pub row: Row,
 }
 
-/// Response of one design.
+/// The response of one design: its motions while a parameter rises and falls.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
-    /// Design.
+    /// Parameter values of the design.
     pub design: Point,
-    /// Motions on the upward branch, in ascending order of the parameter.
+    /// Motions on the upward branch, in ascending order of the followed parameter.
     pub up: Vec<Step>,
-    /// Motions on the downward branch at the values of `up`, also in ascending order.
+    /// Motions on the downward branch at the same parameter values as `up`, also in ascending order.
     pub down: Vec<Step>,
-    /// Unstable orbits, if computed. For each bistable band, the orbits lead from the end of the upward branch to the
-    /// end of the downward branch. Along these orbits, the parameter decreases, and may increase again where the branch
-    /// turns back.
+    /// Unstable orbits, if the user requested them. In each bistable band, the unstable orbits begin near the
+    /// end of the upward branch and end near the end of the downward branch. From orbit to orbit, the
+    /// parameter usually decreases.
     pub unstable: Vec<Step>,
-    /// Sizes of the state's components, see [`component_sizes`].
+    /// Largest magnitude of each state component on both branches (see [`component_sizes`]).
     pub(super) sizes: Vec<f64>,
-    /// Comparison of the motions of `up` and `down` at each value.
+    /// For each value of the parameter, the result of comparing the motions of the upward and the downward
+    /// branch.
     pub(super) comparisons: Vec<Comparison>,
 }
 
-/// Returns the sizes of the state's components: the largest magnitude of each component on both branches.
+/// Returns the size of each state component: its largest magnitude in the periodic motions of both branches.
 pub(super) fn component_sizes(up: &[Step], down: &[Step]) -> Vec<f64> {
     let mut sizes: Vec<f64> = Vec::new();
     let motions = up.iter().chain(down).map(|step| &step.row);
@@ -48,8 +49,8 @@ pub(super) fn component_sizes(up: &[Step], down: &[Step]) -> Vec<f64> {
 }
 
 impl Curve {
-    /// Returns the curve with the given branches, without unstable orbits. Both branches are in ascending order of the
-    /// parameter.
+    /// Returns a response with the given branches and without unstable orbits. The motions of both branches
+    /// must be in ascending order of the parameter.
     pub(super) fn new(design: Point, up: Vec<Step>, down: Vec<Step>) -> Curve {
         let sizes = component_sizes(&up, &down);
         let pairs = up.iter().zip(&down);
@@ -57,22 +58,23 @@ impl Curve {
         Curve { design, up, down, unstable: Vec::new(), sizes, comparisons }
     }
 
-    /// Returns the curve of a design that cannot be run.
+    /// Returns the response of a design whose parameter values are impossible: all rows have the status
+    /// `invalid`.
     pub(super) fn impossible(along: &Along, design: Point, reason: &Invalid) -> Curve {
         let step = |value: &f64| Step { value: *value, row: Row::invalid(reason.clone()) };
         let up: Vec<Step> = along.values.iter().map(step).collect();
         Curve::new(design, up.clone(), up)
     }
 
-    /// Returns the reason why the design has no response, if the combination of its parameters is impossible at every
-    /// value of the followed parameter.
+    /// If the parameter values of the design are impossible at every value of the followed parameter, returns
+    /// the reason.
     pub fn invalid(&self) -> Option<&str> {
         let all = self.up.iter().all(|step| step.row.status == Status::Invalid);
         self.up.first().filter(|_| all)?.row.reason.as_deref()
     }
 
-    /// Returns the motions with the cells of the columns of `layout`, the layout of `plan`. Derived parameters have
-    /// their values at each motion.
+    /// Returns the cells and the row of each motion, for the columns of `layout`. `layout` must be the layout
+    /// of `plan`. Derived parameters are computed again for each motion.
     ///
     /// The upward branch comes first in ascending order, then the downward branch in descending order, then the
     /// unstable orbits.
@@ -92,8 +94,8 @@ impl Curve {
         })
     }
 
-    /// Returns for each value true if the two branches have different motions; `None` if neither motion is periodic
-    /// with the drive.
+    /// Returns one element for each parameter value: true if the two branches have different motions, and
+    /// false if the motions are the same. The element is `None` if neither motion repeats every drive period.
     fn bistable(&self) -> Vec<Option<bool>> {
         let bistable = |comparison: &Comparison| match comparison {
             Comparison::Same => Some(false),
@@ -104,29 +106,29 @@ impl Curve {
     }
 }
 
-/// Largest difference between equal periodic motions: of a state component at the beginning of a period, relative to
-/// the component's largest magnitude on the curve.
+/// Two periodic motions count as the same motion if no state component differs by more than this fraction of
+/// its size. The states are compared at the beginning of a drive period.
 ///
-/// This comparison is the only definition of bistability. The column `bistable` of the rows contains the result, which
-/// pictures and the live page show. The comparison uses states, because a measure may have the same value in two
-/// motions.
+/// flap defines bistability only by this comparison. The column `bistable`, the pictures and the live page
+/// show the result of this comparison. The comparison uses states and not measures, because two different
+/// motions may have equal values of a measure.
 const DIFFERENT: f64 = 1e-2;
 
-/// Relative change of a state component in one step, above which the response is steep.
+/// A step of the response is steep if a state component changes by more than this fraction of its size.
 const STEEP: f64 = 0.1;
 
-/// Comparison of two motions at the same drive.
+/// Result of the comparison of two motions at the same drive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Comparison {
     /// Both motions are the same orbit.
     Same,
-    /// The motions are two orbits, or an orbit and a motion that is not periodic with the drive.
+    /// The motions are two different orbits, or only one of the two motions repeats every drive period.
     Different,
-    /// Neither motion is periodic with the drive.
+    /// Neither motion repeats every drive period.
     Irregular,
 }
 
-/// Compares two motions at the same drive. `sizes` are the sizes of the state's components.
+/// Compares two motions at the same drive. `sizes` contains the size of each state component.
 pub(super) fn compare(up: &Row, down: &Row, sizes: &[f64]) -> Comparison {
     let are_near = || !differ(up, down, sizes, DIFFERENT);
     match (up.status, down.status) {
@@ -141,12 +143,13 @@ pub(super) fn compare(up: &Row, down: &Row, sizes: &[f64]) -> Comparison {
     }
 }
 
-/// Returns true if the response is steep between two motions. `sizes` are the sizes of the state's components.
+/// Returns true if the response is steep between two motions. `sizes` contains the size of each state
+/// component.
 pub(super) fn is_steep(low: &Row, high: &Row, sizes: &[f64]) -> bool {
     differ(low, high, sizes, STEEP)
 }
 
-/// Returns true if a component of the states differs by more than a fraction of the component's size.
+/// Returns true if a state component of two motions differs by more than the fraction `share` of its size.
 fn differ(one: &Row, other: &Row, sizes: &[f64], share: f64) -> bool {
     let mut pairs = one.state.iter().zip(&other.state).zip(sizes);
     pairs.any(|((one, other), size)| (one - other).abs() > share * size)

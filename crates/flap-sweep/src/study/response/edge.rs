@@ -1,4 +1,5 @@
-//! Edges of hysteresis in the plane of two parameters: points and rows of the edges, and a one-line summary.
+//! The edges of hysteresis: curves in the plane of two parameters, on which the bistable bands end. This
+//! module contains the points of edges, their rows, and a one-line summary.
 
 use std::fmt;
 
@@ -10,36 +11,39 @@ use crate::notation::UserError;
 use crate::plan::{Along, Plan};
 use crate::table::layout::{Cell, CellKind, Column, Layout, Measure};
 
-/// Largest magnitude of the Floquet multipliers of an orbit that loses its stability.
+/// If an orbit on an edge has a Floquet multiplier above this value, the orbit is unstable on both sides of
+/// the edge. The value is not exactly 1 because of numerical errors.
 pub(super) const CRITICAL: f64 = 1.001;
 
-/// Largest number of points of an edge in each direction.
+/// Largest number of points that the continuation computes in each of the two directions along an edge.
 pub(super) const MOST: usize = 2000;
 
-/// Largest number of steps of the second parameter.
+/// Largest number of steps in the range of the second parameter.
 const MOST_STEPS: f64 = 1e4;
 
-/// Second parameter of the edges, and the range of this parameter.
+/// The second parameter of the plane in which edges are computed, with the range of this parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EdgeRange {
     /// Index in the model's parameter table.
     pub parameter: usize,
-    /// First and last value.
+    /// Smallest and largest value of the second parameter, in SI units.
     pub range: [f64; 2],
-    /// Distance between the values at which points are returned; `None` for all points of the continuation.
+    /// Step between the values of the second parameter at which points of the edge are returned. If `None`,
+    /// all computed points are returned.
     pub step: Option<f64>,
 }
 
 impl EdgeRange {
-    /// Returns the second parameter of the edges of a plan that follows `along`.
+    /// Checks the second parameter and its range, for a plan that follows the parameter of `along`.
     ///
     /// # Errors
     /// [`UserError`] in one of the following cases:
     ///
-    /// - The parameter is a choice, or the followed parameter.
-    /// - The value of the parameter comes from an axis, a formula or other parameters.
-    /// - The first value is not below the last value, or the value of the plan is outside of the range.
-    /// - The step is not more than zero, or the range has more than 10,000 steps.
+    /// - The second parameter is a choice, or the same parameter as the followed parameter.
+    /// - The value of the second parameter comes from an axis or a formula, or follows from different
+    ///   parameters.
+    /// - The range is empty or descending, or does not contain the design's value of the second parameter.
+    /// - The step is zero or negative, or the range contains more than 10,000 steps.
     pub fn new(
         plan: &Plan,
         along: &Along,
@@ -76,81 +80,83 @@ impl EdgeRange {
     }
 }
 
-/// Edges of one design.
+/// The edges of hysteresis of one design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edges {
-    /// Edges, in the order of the bands at which the edges were found.
+    /// The edges, in ascending order of the followed parameter at which each edge was found.
     pub edges: Vec<Edge>,
-    /// Values of the first parameter at which a band ends, but at which no edge was found.
+    /// Values of the followed parameter at which a band ends but no edge could be computed.
     pub missed: Vec<f64>,
 }
 
 /// A curve in the plane of two parameters on which an orbit loses its stability.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
-    /// Kind of the critical Floquet multiplier.
+    /// Kind of the edge, which depends on the critical Floquet multiplier.
     pub kind: EdgeKind,
-    /// Points in the order of the curve.
+    /// Points in their order along the edge.
     pub points: Vec<EdgePoint>,
-    /// Reasons for the ends of the curve, before the first and after the last point.
+    /// The reason why the edge ends at its first point, and the reason why it ends at its last point.
     pub ends: [EdgeEnd; 2],
 }
 
 /// Kind of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeKind {
-    /// A Floquet multiplier of +1: a stable and an unstable orbit meet.
+    /// A Floquet multiplier is +1: a stable and an unstable orbit meet and vanish.
     Fold,
-    /// A Floquet multiplier of −1: the motion begins to repeat after two drive periods.
+    /// A Floquet multiplier is −1: beyond the edge, the motion repeats only after two drive periods.
     PeriodDoubling,
-    /// A complex pair of Floquet multipliers of modulus 1: the motion begins to have a second frequency.
+    /// Two complex Floquet multipliers have the modulus 1: beyond the edge, the motion has a second
+    /// frequency.
     Torus,
 }
 
 /// An orbit on an edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EdgePoint {
-    /// Values of the first and of the second parameter.
+    /// Value of the followed parameter, then value of the second parameter.
     pub values: [f64; 2],
-    /// Special point of the edge.
+    /// The kind of special point, if the point is a cusp or a turn.
     pub mark: Option<EdgeMark>,
-    /// State at the beginning of the drive period.
+    /// State of the orbit at the beginning of the drive period.
     pub state: Vec<f64>,
     /// Measures of the orbit.
     pub measures: Vec<f64>,
-    /// Largest magnitude of the Floquet multipliers. The magnitude exceeds 1 if the orbit is unstable on both sides of
-    /// the edge.
+    /// Largest magnitude of the orbit's Floquet multipliers. The magnitude of a Floquet multiplier exceeds 1
+    /// if the orbit is unstable on both sides of the edge.
     pub floquet_max: f64,
 }
 
-/// Special point of an edge.
+/// A special point of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EdgeMark {
-    /// Cusp: both folds of a band meet, and the edge turns back in the plane of the two parameters.
+    /// A cusp: the folds at both ends of a bistable band meet, and the band vanishes. In the plane of the two
+    /// parameters, the edge turns back at the cusp.
     Cusp,
-    /// Turn: the second parameter has a local minimum or maximum along the edge.
+    /// A turn: the value of the second parameter has a local minimum or maximum along the edge.
     Turn,
 }
 
-/// Reason for the end of an edge.
+/// The reason why an edge ends.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EdgeEnd {
-    /// The edge leaves the range of a parameter. The variant contains the index of the parameter.
+    /// The edge leaves the range of the parameter with this index.
     Range(usize),
     /// The edge is a closed curve.
     Closed,
-    /// The pair of complex Floquet multipliers of a torus edge becomes real.
+    /// On an edge of the kind `Torus`, the two complex Floquet multipliers become real.
     Resonance,
-    /// Newton's iteration does not converge for the shortest step.
+    /// Newton's iteration does not converge, even with the shortest step along the edge.
     Unconverged,
-    /// A drive period cannot be integrated.
+    /// The motion over a drive period cannot be integrated.
     Unfinished(Unfinished),
-    /// The edge has more points than the limit.
+    /// The edge reaches the largest number of points.
     Long,
 }
 
 impl EdgeMark {
-    /// Returns the name of this variant in result files.
+    /// Returns the name of this kind in result files.
     pub fn name(self) -> &'static str {
         match self {
             EdgeMark::Cusp => "cusp",
@@ -163,7 +169,7 @@ impl EdgeKind {
     /// All kinds.
     pub const ALL: [EdgeKind; 3] = [EdgeKind::Fold, EdgeKind::PeriodDoubling, EdgeKind::Torus];
 
-    /// Returns the name of this variant in result files.
+    /// Returns the name of this kind in result files.
     pub fn name(self) -> &'static str {
         match self {
             EdgeKind::Fold => "fold",
@@ -174,7 +180,7 @@ impl EdgeKind {
 }
 
 impl Edges {
-    /// Returns the columns of the rows of edges.
+    /// Returns the columns of the results file with edges.
     pub fn columns(plan: &Plan, along: &Along, second: &EdgeRange) -> Vec<Column> {
         let parameter = |index: usize| Column::of_parameter(&plan.parameters()[index]);
         let word = |name, doc| Column::new(name, "", CellKind::Text, doc);
@@ -191,7 +197,7 @@ impl Edges {
         varied.chain(fixed).chain(place).chain([multiplier]).chain(measures).collect()
     }
 
-    /// Returns one row of [`Edges::columns`] for each point of the edges of `design`.
+    /// Returns one row with the columns of [`Edges::columns`] for each point on the edges of `design`.
     pub fn rows<'p>(&self, plan: &'p Plan, design: &Point) -> Vec<Vec<Cell<'p>>> {
         let measures = measures(plan);
         let varied: Vec<Cell<'_>> = (plan.axes().varied())
@@ -213,14 +219,15 @@ impl Edges {
     }
 }
 
-/// Returns the measures of a plan without the derivatives, because points of edges have no derivatives.
+/// Returns the measures that rows of edges contain. Columns with derivatives are left out, because flap
+/// computes no derivatives on edges.
 fn measures(plan: &Plan) -> Vec<Measure> {
     let known = plan.rows().columns().len() + plan.measures().len();
     Layout::of(plan).measures().filter(|measure| measure.index < known).cloned().collect()
 }
 
 impl Edge {
-    /// Returns the summary of an edge in the plane of `along` and `second`, in one line.
+    /// Returns a one-line summary of the edge. `along` and `second` are the parameters of the plane.
     pub fn verdict(&self, plan: &Plan, along: &Along, second: &EdgeRange) -> String {
         let units = [along.parameter, second.parameter].map(|index| plan.parameters()[index].unit);
         let place = |point: &EdgePoint| {

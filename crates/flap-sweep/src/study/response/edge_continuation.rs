@@ -1,16 +1,17 @@
-//! Continuation of the edges of hysteresis: curves in the plane of two parameters on which an orbit loses its
-//! stability.
+//! Computes the edges of hysteresis by continuation. Edges are curves in the plane of two parameters, on
+//! which an orbit loses its stability.
 //!
-//! A bistable band of the first parameter p ends where a Floquet multiplier is +1. If a second parameter q changes, the
-//! ends of the bistable bands form curves in the plane of p and q. A point of an edge solves these equations:
+//! A bistable band of the followed parameter p ends where a Floquet multiplier is critical, for example +1 at
+//! a fold. If a second parameter q changes, the ends of the band move along curves in the plane of p and q,
+//! the edges. Each point of an edge solves these equations:
 //!
 //! ```text
 //! P(x; p, q) − x = 0    P: map of a drive period, x: state at its beginning
 //! test(M) = 0           M = ∂P/∂x: monodromy matrix
 //! ```
 //!
-//! The test function is zero if a Floquet multiplier has its critical value (Kuznetsov, Elements of
-//! Applied Bifurcation Theory, section 10.2):
+//! The function test(M) is zero if a Floquet multiplier is critical (Kuznetsov, Elements of Applied
+//! Bifurcation Theory, section 10.2):
 //!
 //! | kind | multipliers | test(M) |
 //! |---|---|---|
@@ -18,9 +19,10 @@
 //! | period doubling | −1 | det(M + 1) |
 //! | torus | a pair of modulus 1 | det(C − 1), with the second compound matrix C of M |
 //!
-//! Pseudo-arclength continuation follows the solutions in the space of the state x and the parameters p and q.
+//! Pseudo-arclength continuation computes the curve of solutions in the space of the state x and the
+//! parameters p and q.
 //!
-//! Both folds of a band meet in a cusp, where the curve turns back in the plane of the parameters p and q.
+//! At a cusp, the folds at both ends of a band meet, and the edge turns back in the plane of p and q.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Period, Status, Unfinished};
@@ -32,44 +34,52 @@ use super::edge::{CRITICAL, Edge, EdgeEnd, EdgeKind, EdgeMark, EdgePoint, EdgeRa
 use super::run::Responses;
 use super::space::OrbitSpace;
 
-/// Initial, shortest and longest distance between neighbouring points of an edge. A distance of 1 corresponds to about
-/// the range of a parameter, and to the largest magnitude of a state component.
+/// Initial, shortest and longest distance between successive points of an edge. The unit of a parameter's
+/// change is about the width of the parameter's range. The unit of a state component's change is the largest
+/// magnitude of the component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.05];
 
-/// Smallest cosine of the angle between tangents of neighbouring points.
+/// If the cosine of the angle between the tangents at successive points is smaller than this value, the step
+/// is halved.
 const STRAIGHT: f64 = 0.95;
 
-/// Largest number of iterations to compute a point from its neighbour, and number of iterations below which the
-/// distance to the next point increases.
+/// If Newton's iteration does not converge within `SLOW` iterations, the step to the next point is halved. If
+/// Newton's iteration needs at most `QUICK` iterations, the next step is longer.
 const SLOW: usize = 8;
 const QUICK: usize = 4;
 
-/// Largest number of iterations for the first point of an edge.
+/// Largest number of Newton iterations for a point at a given value of a parameter, such as the first point
+/// of an edge.
 const FIRST: usize = 20;
 
-/// Largest number of iterations for a cusp or a turn.
+/// Largest number of iterations of regula falsi for the position of a cusp or a turn.
 const MARKED: usize = 50;
 
-/// Change of the state and the parameters for computing derivatives by differences, in the units of [`STEPS`].
+/// Change of a state component or a parameter with which derivatives are computed as differences. The units
+/// are the same as for [`STEPS`].
 const CHANGE: f64 = 1e-3;
 
-/// Tolerances for the integration of drive periods, relative to the usual tolerances.
+/// The tolerances of the integration are the tolerances of the plan times this factor.
 ///
-/// The test functions must change smoothly along an edge. At kinks of a force, the responses of a motion have larger
-/// errors than the motion. With a hundredth of the usual tolerances, the test functions of a bimorph have errors of 5e-6.
+/// The small tolerances are necessary because the test functions must change smoothly along an edge. At kinks
+/// of a force, the monodromy matrix has larger errors than the motion. With a factor of 0.01 instead of
+/// 0.0001, the test functions of a bimorph have errors of 5e-6.
 const FINER: f64 = 1e-4;
 
-/// Size of the last step of Newton's iteration, relative to the usual relative tolerance of the integration.
+/// Newton's iteration has converged when its step is shorter than this value times the relative tolerance of
+/// the plan.
 const CONVERGED: f64 = 0.1;
 
-/// Largest distance of a point from the chord between two points of the same edge, relative to the length of the chord.
+/// A point is on an edge if its distance from the line between two successive points is at most this fraction
+/// of the line's length.
 const ON_CHORD: f64 = 0.2;
 
 impl Responses<'_> {
-    /// Returns the edges of the bands of two motions in `curve`. Each edge is a line in the plane of two parameters: the
-    /// parameter of the response, and the parameter `second`. `curve` is a response of the same plan.
+    /// Returns the edges on which the bistable bands of `curve` end. Each edge is a curve in the plane of two
+    /// parameters: the followed parameter, and the parameter of `second`. `curve` must be a response of the
+    /// same plan.
     ///
-    /// If the computation is interrupted, the edges are incomplete.
+    /// If the computation is interrupted, edges are missing or incomplete.
     pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {
         let Responses { plan, along } = self;
         let range = [along.values[0], along.values[along.values.len() - 1]];
@@ -110,12 +120,13 @@ impl Responses<'_> {
     }
 }
 
-/// Returns the power of two nearest to a width. Divisions by a power of two are exact.
+/// Returns the power of two that is nearest to the width of a range. Divisions by a power of two have no
+/// rounding errors.
 fn power_of_two(width: f64) -> f64 {
     width.log2().round().exp2()
 }
 
-/// Returns true if a point is on the polygonal line through the points of a trace.
+/// Returns true if a point is close to one of the straight lines that connect successive points of `trace`.
 fn is_on(trace: &[DVector<f64>], point: &DVector<f64>) -> bool {
     trace.windows(2).any(|ends| {
         let chord = &ends[1] - &ends[0];
@@ -124,36 +135,40 @@ fn is_on(trace: &[DVector<f64>], point: &DVector<f64>) -> bool {
     })
 }
 
-/// The plane of two parameters, with the equations of an edge of one kind.
+/// Computes edges of one kind in the plane of two parameters.
 struct Plane<'a> {
-    /// The space in which the edge is a curve. The units of the parameters are about the widths of their ranges.
+    /// The space of the state and the two parameters. The unit of each parameter is about the width of its
+    /// range.
     space: OrbitSpace<'a, 2>,
     ranges: [[f64; 2]; 2],
-    /// Length of a step of Newton's iteration after which the iteration has converged.
+    /// Newton's iteration has converged when its step is at most this long.
     converged: f64,
     kind: EdgeKind,
 }
 
-/// A solution of the equations.
+/// A solution of the equations, which is a point of an edge.
 #[derive(Clone)]
 struct Solution {
     place: DVector<f64>,
     period: Period,
-    /// Derivatives of the equations with respect to state and parameters. The matrix has one more column than rows.
+    /// Derivatives of the equations with respect to the state and the two parameters. The matrix has one more
+    /// column than it has rows.
     jacobian: DMatrix<f64>,
     tangent: DVector<f64>,
     iterations: usize,
 }
 
 impl Plane<'_> {
-    /// Returns the unit vector of the parameter `k`.
+    /// Returns the unit vector along the parameter with the number `k`: 0 for the followed parameter, 1 for
+    /// the second parameter.
     fn axis(&self, k: usize) -> DVector<f64> {
         let mut axis = DVector::zeros(self.space.states() + 2);
         axis[self.space.states() + k] = 1.0;
         axis
     }
 
-    /// Returns the residuals of the equations at a point of the edge, with the drive period that begins at this point.
+    /// Returns the residuals of the equations at `place`, and the motion over the drive period that begins
+    /// there.
     fn residual(&self, place: &DVector<f64>) -> Result<(DVector<f64>, Period), EdgeEnd> {
         let period = self.space.period(place).map_err(EdgeEnd::Unfinished)?;
         let n = self.space.states();
@@ -165,7 +180,7 @@ impl Plane<'_> {
         Ok((residual, period))
     }
 
-    /// Returns the derivatives of the residuals by central differences.
+    /// Computes the derivatives of the residuals by central differences.
     fn jacobian(&self, place: &DVector<f64>) -> Result<DMatrix<f64>, EdgeEnd> {
         let n = self.space.states();
         let mut jacobian = DMatrix::zeros(n + 1, n + 2);
@@ -181,7 +196,8 @@ impl Plane<'_> {
         Ok(jacobian)
     }
 
-    /// Returns the solution at a point that solves the equations, with a tangent that points along `direction`.
+    /// Adds the derivatives and the tangent to a point that solves the equations. The tangent points towards
+    /// the same side as `direction`.
     fn solution(
         &self,
         place: DVector<f64>,
@@ -199,7 +215,8 @@ impl Plane<'_> {
         Ok(Solution { place, period, jacobian, tangent, iterations })
     }
 
-    /// Returns the solution near `guess` at the same value of the parameter `k`, by Newton's iteration.
+    /// Returns the solution that Newton's iteration finds near `guess`. The parameter with the number `k`
+    /// keeps its value.
     fn solve_at(&self, k: usize, guess: DVector<f64>) -> Result<Solution, EdgeEnd> {
         let axis = self.axis(k);
         let mut place = guess;
@@ -215,9 +232,10 @@ impl Plane<'_> {
         Err(EdgeEnd::Unconverged)
     }
 
-    /// Returns the solution at a distance along the tangent of `last`, on the plane perpendicular to this tangent.
+    /// Returns a solution at the given distance from `last` along the tangent at `last`. Newton's iteration
+    /// seeks the solution on a plane that is perpendicular to this tangent.
     ///
-    /// All steps of Newton's iteration use the derivatives at `last`.
+    /// To save time, Newton's iteration uses the derivatives at `last` in all its steps.
     fn solve_beside(&self, last: &Solution, distance: f64) -> Result<Solution, EdgeEnd> {
         let guess = &last.place + &last.tangent * distance;
         let lu = bordered(&last.jacobian, &last.tangent);
@@ -237,7 +255,8 @@ impl Plane<'_> {
         Err(EdgeEnd::Unconverged)
     }
 
-    /// Returns the point of the edge near these motions, which are the neighbours of the end of a band.
+    /// Returns a point of an edge, computed from the motions next to the end of a band. Returns `None` if no
+    /// edge is close to these motions.
     fn start(&self, motions: &[&Step], second: &EdgeRange) -> Option<Solution> {
         let value = self.space.design.values[second.parameter];
         let periodic = motions.iter().filter(|step| step.row.status == Status::Periodic);
@@ -253,9 +272,9 @@ impl Plane<'_> {
         })
     }
 
-    /// Follows the edge from a point in both directions.
+    /// Computes the edge from the point `start` in both directions.
     ///
-    /// Returns the edge, and all points of the continuation.
+    /// The second result contains the coordinates of all computed points.
     fn trace(&self, start: &Solution, second: &EdgeRange) -> (Edge, Vec<DVector<f64>>) {
         let back = Solution { tangent: -&start.tangent, ..start.clone() };
         let (mut points, before) = self.follow(&back);
@@ -275,7 +294,8 @@ impl Plane<'_> {
         (Edge { kind: self.kind, points, ends }, trace)
     }
 
-    /// Returns the points after `start` along its tangent, each with its mark, and the reason for the end.
+    /// Computes the edge from `start` in the direction of its tangent. Returns the computed points, the marks
+    /// of special points, and the reason why the edge ends.
     fn follow(&self, start: &Solution) -> (Vec<(Solution, Option<EdgeMark>)>, EdgeEnd) {
         let mut last = start.clone();
         let mut distance = STEPS[0];
@@ -314,7 +334,8 @@ impl Plane<'_> {
         (found, EdgeEnd::Long)
     }
 
-    /// Returns the first parameter outside of its range, with the limit that the parameter exceeds.
+    /// If a parameter is outside of its range, returns its number and the end of the range that the parameter
+    /// exceeds.
     fn outside(&self, place: &DVector<f64>) -> Option<(usize, f64)> {
         self.space.values(place).into_iter().zip(self.ranges).enumerate().find_map(
             |(k, (value, [from, to]))| {
@@ -324,7 +345,8 @@ impl Plane<'_> {
         )
     }
 
-    /// Returns the point between two points with a given value of the parameter `k`.
+    /// Returns the point of the edge between `one` and `other` at which the parameter with the number `k` has
+    /// the given value.
     fn between(&self, k: usize, value: f64, one: &Solution, other: &Solution) -> Option<Solution> {
         let place = self.space.states() + k;
         let scaled = value / self.space.units[k];
@@ -336,10 +358,11 @@ impl Plane<'_> {
         Some(found)
     }
 
-    /// Returns the cusp or turn between two neighbouring points, by regula falsi (Illinois).
+    /// Returns the cusp or turn between two successive points of the edge, if there is one. The position of
+    /// this point is computed by the Illinois variant of regula falsi.
     ///
-    /// If the edge turns back along the second parameter, the tangent has no component along this parameter. At a cusp
-    /// of a fold, the tangent has no components along both parameters, and both components change their sign.
+    /// At a turn, the tangent's component along the second parameter is zero. At a cusp of a fold, the
+    /// components along both parameters are zero and change their sign.
     fn marked(&self, last: &Solution, next: &Solution) -> Option<(Solution, EdgeMark)> {
         let n = self.space.states();
         let parameters = |solution: &Solution| solution.tangent.rows(n, 2).into_owned();
@@ -375,8 +398,8 @@ impl Plane<'_> {
         found
     }
 
-    /// Returns the first and the last point, the marked points, and points at equal steps of the second parameter. The
-    /// steps begin at the first value of the second parameter.
+    /// Returns points of the edge at equal steps of the second parameter, counted from the smallest value of
+    /// its range. The list also contains the first and the last point, and all special points.
     fn at_steps(
         &self,
         points: &[(Solution, Option<EdgeMark>)],
@@ -423,7 +446,8 @@ impl Plane<'_> {
     }
 }
 
-/// Returns the test function of a monodromy matrix: zero if a Floquet multiplier has the critical value of this kind.
+/// Returns the value of the test function for a monodromy matrix. The value is zero if a Floquet multiplier
+/// has the critical value of `kind`.
 fn test(kind: EdgeKind, m: &DMatrix<f64>) -> f64 {
     let one = |n| DMatrix::<f64>::identity(n, n);
     match kind {
@@ -437,7 +461,8 @@ fn test(kind: EdgeKind, m: &DMatrix<f64>) -> f64 {
     }
 }
 
-/// Returns the matrix of all 2 × 2 minors. The eigenvalues of the result are the products of two eigenvalues of `m`.
+/// Returns the matrix of all 2 × 2 minors of `m`. The eigenvalues of the result are the products of pairs of
+/// eigenvalues of `m`.
 fn second_compound(m: &DMatrix<f64>) -> DMatrix<f64> {
     let n = m.nrows();
     let pairs: Vec<[usize; 2]> = (0..n).flat_map(|j| (0..j).map(move |i| [i, j])).collect();
@@ -447,7 +472,7 @@ fn second_compound(m: &DMatrix<f64>) -> DMatrix<f64> {
     })
 }
 
-/// Returns the decomposition of a matrix of derivatives to which a last row is added.
+/// Appends the row `last` to a matrix of derivatives, and returns the LU decomposition of the square matrix.
 fn bordered(jacobian: &DMatrix<f64>, last: &DVector<f64>) -> LU<f64, Dyn, Dyn> {
     let rows = jacobian.nrows();
     let mut matrix = jacobian.clone().insert_row(rows, 0.0);
@@ -456,7 +481,8 @@ fn bordered(jacobian: &DMatrix<f64>, last: &DVector<f64>) -> LU<f64, Dyn, Dyn> {
     matrix.lu()
 }
 
-/// Returns true if the Floquet multiplier nearest to modulus 1 is not real.
+/// Returns true if the Floquet multiplier whose modulus is nearest to 1 is complex, and its modulus is 1
+/// within the tolerance.
 fn has_pair_of_modulus_one(monodromy: &DMatrix<f64>) -> bool {
     let Some(schur) = Schur::try_new(monodromy.clone(), f64::EPSILON, 200) else { return false };
     let eigenvalues = schur.complex_eigenvalues();

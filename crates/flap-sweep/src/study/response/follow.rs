@@ -1,11 +1,13 @@
-//! The upward and the downward branch of a curve.
+//! Computes the upward and the downward branch of a response.
 //!
-//! The upward and the downward branch advance step by step at the same time. Afterwards, two kinds of steps are halved
-//! until the steps are short. Each half of a step starts from the neighbouring motion on the same branch. The two
-//! kinds of steps are:
+//! First, both branches are computed at the given values of the parameter, one value after the other. Then
+//! two kinds of steps between values are halved until the steps are as short as the tolerance. In the middle
+//! of a step, the motion of each branch starts from the neighbouring motion on the same branch. The following
+//! kinds of steps are halved:
 //!
-//! - Steps with equal motions of both branches at one end only.
-//! - Steps in which the response is steep, because such steps may contain a narrow band of hysteresis.
+//! - Steps that contain an end of a bistable band, because both branches have the same motion at only one end
+//!   of the step.
+//! - Steps in which the state changes much, because these steps may contain a narrow band of hysteresis.
 
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status};
@@ -14,24 +16,25 @@ use super::curve::{Comparison, Curve, Step, compare, component_sizes, is_steep};
 use crate::plan::{Along, Plan};
 use crate::resonance::sequence::{Exchange, Sequence};
 
-/// The computation of a curve.
+/// Computes the response of one design.
 pub(super) struct Follow<'a> {
     plan: &'a Plan,
     along: &'a Along,
     design: Point,
-    /// Motions on the upward and the downward branch, in the order in which the motions were run.
+    /// Motions on the upward branch, in the order in which they were computed.
     up: Vec<Step>,
+    /// Motions on the downward branch, in the order in which they were computed.
     down: Vec<Step>,
 }
 
-/// A step between neighbouring values.
+/// A step between two neighbouring values of the followed parameter.
 #[derive(Clone, Debug)]
 struct Interval {
-    /// Ends of the step, with the motion of the upward branch at the lower end and of the downward branch at the
-    /// upper end.
+    /// The motion of the upward branch at the smaller value of the parameter.
     low: Step,
+    /// The motion of the downward branch at the larger value of the parameter.
     high: Step,
-    /// True for each end of the step at which both branches have the same motion.
+    /// Two flags, for the smaller and for the larger value: true if both branches have the same motion.
     same: [bool; 2],
 }
 
@@ -40,7 +43,7 @@ impl<'a> Follow<'a> {
         Follow { plan, along, design, up: Vec::new(), down: Vec::new() }
     }
 
-    /// Returns the computation of the curve.
+    /// Returns the computation of the response, which pauses while its points are computed in lanes.
     pub(super) fn sequence(self) -> Sequence<'a, Curve> {
         Sequence::new(|exchange| async move { self.run(&exchange).await })
     }
@@ -83,7 +86,8 @@ impl<'a> Follow<'a> {
         Curve::new(self.design, self.up, self.down)
     }
 
-    /// Returns the rows of points. The row of a point that cannot be run contains the reason.
+    /// Computes the rows of points. If the parameter values of a point are impossible, its row contains the
+    /// reason.
     async fn rows(&self, exchange: &Exchange, points: Vec<Point>) -> Vec<Row> {
         let invalid: Vec<_> = points.iter().map(|point| self.plan.invalid(&point.values)).collect();
         let possible = points.into_iter().zip(&invalid).filter(|(_, invalid)| invalid.is_none());
@@ -92,7 +96,8 @@ impl<'a> Follow<'a> {
         invalid.into_iter().filter_map(row).collect()
     }
 
-    /// Returns the point at `value`, which begins at the final state of `from`.
+    /// Returns the point at which the followed parameter has the given value. The motion of the point starts
+    /// from the settled state of the motion `from`.
     fn point_at(&self, value: f64, from: Option<&Step>) -> Point {
         let values = self.along.values_at(self.plan, &self.design, value);
         let begin = from.and_then(|step| match step.row.status {
@@ -104,7 +109,8 @@ impl<'a> Follow<'a> {
         Point { begin: begin.filter(|state| !state.is_empty()), ..Point::at_rest(0, values) }
     }
 
-    /// Returns the steps between the values, without steps next to motions that are not periodic with the drive.
+    /// Returns the steps between neighbouring values. A step is left out if neither motion at one of its ends
+    /// repeats every drive period.
     fn intervals(&self) -> Vec<Interval> {
         let sizes = component_sizes(&self.up, &self.down);
         let places: Vec<(&Step, &Step, Comparison)> = (self.up.iter().zip(self.down.iter().rev()))
@@ -125,7 +131,7 @@ impl Interval {
         0.5 * (self.low.value + self.high.value)
     }
 
-    /// Returns true if the step contains an end of a bistable band, or may contain a band.
+    /// Returns true if the step contains an end of a bistable band, or may contain a whole band.
     fn is_open(&self, sizes: &[f64]) -> bool {
         match self.same {
             [true, true] => is_steep(&self.low.row, &self.high.row, sizes),
@@ -139,7 +145,8 @@ impl Interval {
         low < middle && middle < high && high - low > tolerance
     }
 
-    /// Returns the two halves of the step, given the motions in the middle of the step.
+    /// Divides the step into two halves. `up` and `down` are the motions of both branches in the middle of
+    /// the step.
     fn halves(self, up: &Step, down: &Step, sizes: &[f64]) -> [Interval; 2] {
         let same = compare(&up.row, &down.row, sizes) == Comparison::Same;
         let [below, above] = self.same;

@@ -1,19 +1,20 @@
 //! Responses: the motions of a design while one parameter, usually the drive frequency, rises and falls.
 //!
-//! Every point starts from the settled motion of its neighbour, so the response stays on a branch of orbits up to the
-//! branch's end. At values where the upward and the downward branch differ, the design has two motions at the same
-//! drive.
+//! The motion at each value of the parameter starts from the settled motion at the previous value. The
+//! response therefore stays on a branch of orbits until the branch ends. At values at which the upward and
+//! the downward branch differ, the design has two motions at the same drive.
 //!
-//! - `along`: values of the parameter that rises and falls.
-//! - `curve`: response of one design, its rows, and the comparison of its motions at the same drive.
-//! - `follow`: one curve, with the upward and the downward branch and the ends of the bistable bands.
-//! - `space`: space of states and parameters in which continuations follow curves of orbits.
-//! - `continuation`: unstable orbits that connect the branches of a bistable band.
-//! - `basin`: fractions of initial states whose motions settle on each branch.
-//! - `edge`: ends of bands in the plane of two parameters, with rows and a summary.
-//! - `edge_continuation`: continuation of the ends of bands.
-//! - `verdict`: one-line summary of a curve.
-//! - `run`: curves of all designs of a plan, in order.
+//! - `along` determines the values of the parameter that rises and falls.
+//! - `curve` contains the response of one design and its rows, and compares the motions of both branches at
+//!   the same drive.
+//! - `follow` computes both branches of a response, and finds the ends of bistable bands.
+//! - `space` defines the space of states and parameters in which curves of orbits are computed.
+//! - `continuation` computes the unstable orbits in bistable bands.
+//! - `basin` computes the fraction of initial states from which the motion settles on each branch.
+//! - `edge` contains the edges of hysteresis in the plane of two parameters, their rows and a summary.
+//! - `edge_continuation` computes the edges of hysteresis.
+//! - `verdict` writes the one-line summary of a response.
+//! - `run` computes the responses of all designs of a plan, in the order of the designs.
 
 mod along;
 mod basin;

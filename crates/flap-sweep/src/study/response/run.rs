@@ -1,4 +1,4 @@
-//! Runner of responses: a curve for each design of a plan.
+//! Computes one response for each design of a plan, on several threads.
 
 use std::sync::Arc;
 
@@ -12,13 +12,15 @@ use crate::plan::{Admission, Along, Plan};
 use crate::resonance::sequence::{self, Sequence, SequenceSource};
 use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
-/// Smallest and largest number of curves per thread ahead of the last returned curve.
+/// Lower and upper limit of the number of responses per thread that are computed ahead of the last returned
+/// response.
 ///
-/// These numbers of curves, which are computed at the same time, keep the lanes full and fit into memory.
+/// With fewer responses than the lower limit, some lanes would be empty. With more responses than the upper
+/// limit, the memory could be too small.
 const AHEAD: [usize; 2] = [16, 128];
 
-/// Responses of the designs of a plan: of its selected points, except points that are excluded at all values of the
-/// parameter.
+/// The responses of the designs of a plan. The designs are the selected points of the plan. Designs that
+/// conditions exclude at all values of the followed parameter have no response.
 #[derive(Clone, Copy)]
 pub struct Responses<'a> {
     pub(super) plan: &'a Plan,
@@ -26,12 +28,12 @@ pub struct Responses<'a> {
 }
 
 impl<'a> Responses<'a> {
-    /// Returns the responses of a plan that follows a parameter; `None` for any other plan.
+    /// Returns the responses of a plan, or `None` if the plan does not follow a parameter.
     pub fn of(plan: &'a Plan) -> Option<Responses<'a>> {
         plan.followed().map(|along| Responses { plan, along })
     }
 
-    /// Returns the curves of the designs beginning at position `first` among the selected points, in order.
+    /// Computes the responses of the designs in order, beginning with the selected point at position `first`.
     pub fn curves(self, options: &RunOptions, first: u64) -> Run<Outcome<Curve>> {
         let window = self.window(options);
         let (plan, backend) = (Arc::new(self.plan.clone()), options.instructions);
@@ -42,13 +44,14 @@ impl<'a> Responses<'a> {
         })
     }
 
-    /// Returns the largest number of curves ahead of the last written curve.
+    /// Returns the largest number of responses that may be computed ahead of the last written response.
     fn window(self, options: &RunOptions) -> usize {
         let [least, most] = AHEAD.map(|curves| curves * options.threads.get());
         (options.window / (2 * self.along.values.len())).clamp(least, most)
     }
 
-    /// Returns the response of one design, computed on scalars with the same bits as [`Responses::curves`].
+    /// Computes the response of one design with scalar arithmetic. All bits of the result are the same as
+    /// with [`Responses::curves`].
     pub fn curve(self, design: Point) -> Curve {
         let backend = Backend::best();
         let run = PointRun::new(backend, self.plan.solver(), &[]);
@@ -57,9 +60,10 @@ impl<'a> Responses<'a> {
         self.complete(curve, backend, &never)
     }
 
-    /// Adds the unstable orbits to a curve, if requested, and adds the measures of the plan to all rows of the curve.
+    /// Adds the unstable orbits to a response, if the plan requests unstable orbits. Adds the measures that
+    /// the grid file defines to all rows of the response.
     ///
-    /// If the computation is interrupted, orbits are left out.
+    /// If the computation is interrupted, some unstable orbits are missing.
     fn complete(self, mut curve: Curve, backend: Backend, interrupted: Interrupt<'_>) -> Curve {
         let Responses { plan, along } = self;
         if along.unstable {
@@ -74,7 +78,8 @@ impl<'a> Responses<'a> {
 }
 
 impl RowWriter<'_> {
-    /// Writes the rows of the next design's curve, or counts an excluded design.
+    /// Writes the rows of the next design's response. If the design is excluded, the function only counts the
+    /// design.
     ///
     /// # Errors
     /// [`RunError::Sink`] if the rows cannot be written.
@@ -89,7 +94,7 @@ impl RowWriter<'_> {
     }
 }
 
-/// Designs from the queue whose curves are being computed.
+/// Takes designs from the queue, and returns their responses to the queue.
 struct Designs<'a, 'w, 'q> {
     responses: Responses<'a>,
     backend: Backend,
@@ -138,7 +143,8 @@ impl<'a> SequenceSource<'a> for Designs<'a, '_, '_> {
     }
 }
 
-/// Returns the expected number of measures of a row. A row of a periodic motion has `measures` measures.
+/// Returns the number of measures that a row must have. Rows with a periodic motion have `measures` measures,
+/// and all remaining rows have none.
 fn expected(row: &Row, measures: usize) -> usize {
     if row.status == Status::Periodic { measures } else { 0 }
 }

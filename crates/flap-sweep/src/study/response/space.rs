@@ -1,4 +1,4 @@
-//! Space in which a continuation follows a curve of orbits.
+//! The space of states and parameters in which curves of orbits are computed.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Period, Point, PointRun, SolverSettings, Unfinished};
@@ -7,17 +7,19 @@ use nalgebra::{DMatrix, DVector};
 use super::curve::Curve;
 use crate::plan::Plan;
 
-/// Space of the state at the beginning of a drive period and of `P` parameters of a design.
+/// The space of the state at the beginning of a drive period and of `P` parameters. A point of this space
+/// determines the motion over the drive period.
 ///
-/// The coordinates are the state relative to its sizes, then the parameters relative to their units.
+/// The first coordinates are the state components, divided by their sizes. The last coordinates are the
+/// parameter values, divided by their units.
 pub(super) struct OrbitSpace<'a, const P: usize> {
     pub(super) plan: &'a Plan,
     pub(super) design: &'a Point,
-    /// Indices of the parameters.
+    /// Indices of the parameters in the model's parameter table.
     pub(super) parameters: [usize; P],
-    /// Units of the parameters (SI): a change by one unit is a distance of 1.
+    /// Parameter changes that count as a distance of 1, in SI units.
     pub(super) units: [f64; P],
-    /// Sizes of the state's components; 1 for a component that is always zero.
+    /// Size of each state component. If a component is always zero, its size is 1.
     pub(super) sizes: Vec<f64>,
     pub(super) solver: SolverSettings,
     backend: Backend,
@@ -25,8 +27,8 @@ pub(super) struct OrbitSpace<'a, const P: usize> {
 }
 
 impl<'a, const P: usize> OrbitSpace<'a, P> {
-    /// Returns the space of the design of a curve. `parameters` are the indices and the units of the parameters.
-    /// `finer` is the factor of the tolerances for the integration of drive periods.
+    /// Returns the space for the design of `curve`. `parameters` contains the indices and the units of the
+    /// parameters. The tolerances of the integration are multiplied by `finer`.
     pub(super) fn new(
         plan: &'a Plan,
         curve: &'a Curve,
@@ -49,29 +51,29 @@ impl<'a, const P: usize> OrbitSpace<'a, P> {
         }
     }
 
-    /// Returns the number of states.
+    /// Returns the number of state components.
     pub(super) fn states(&self) -> usize {
         self.sizes.len()
     }
 
-    /// Returns the coordinates of a state with the given values of the parameters.
+    /// Returns the coordinates of a point with the given state and parameter values.
     pub(super) fn place(&self, state: &[f64], values: [f64; P]) -> DVector<f64> {
         let state = state.iter().zip(&self.sizes).map(|(y, size)| y / size);
         let values = values.into_iter().zip(self.units).map(|(value, unit)| value / unit);
         DVector::from_iterator(self.states() + P, state.chain(values))
     }
 
-    /// Returns the state at a place.
+    /// Returns the state at the point with the coordinates `place`.
     pub(super) fn state(&self, place: &DVector<f64>) -> Vec<f64> {
         place.iter().zip(&self.sizes).map(|(y, size)| y * size).collect()
     }
 
-    /// Returns the values of the parameters at a place.
+    /// Returns the parameter values at the point with the coordinates `place`.
     pub(super) fn values(&self, place: &DVector<f64>) -> [f64; P] {
         core::array::from_fn(|k| place[self.states() + k] * self.units[k])
     }
 
-    /// Returns one value per parameter of the model.
+    /// Returns the values of all parameters of the design at the point with the coordinates `place`.
     pub(super) fn model_values(&self, place: &DVector<f64>) -> Vec<f64> {
         let mut values = self.design.values.clone();
         for (parameter, value) in self.parameters.into_iter().zip(self.values(place)) {
@@ -81,7 +83,8 @@ impl<'a, const P: usize> OrbitSpace<'a, P> {
         values
     }
 
-    /// Returns the motion over one drive period that begins at a place.
+    /// Returns the motion over one drive period with the initial state and the parameters at the coordinates
+    /// `place`.
     pub(super) fn period(&self, place: &DVector<f64>) -> Result<Period, Unfinished> {
         let values = self.model_values(place);
         if let Some(invalid) = self.plan.invalid(&values) {
@@ -91,7 +94,7 @@ impl<'a, const P: usize> OrbitSpace<'a, P> {
         self.plan.simulator().motions()?.period(&run, &self.state(place))
     }
 
-    /// Returns the monodromy matrix in units of the sizes of the states.
+    /// Returns the monodromy matrix for state components that are divided by their sizes.
     pub(super) fn monodromy(&self, period: &Period) -> DMatrix<f64> {
         let n = self.states();
         DMatrix::from_fn(n, n, |i, j| period.responses[j][i] * self.sizes[j] / self.sizes[i])

@@ -1,4 +1,4 @@
-//! One-line summary of a curve.
+//! One-line summary of a response: hysteresis or no hysteresis, with the bistable bands.
 
 use std::fmt;
 use std::mem::discriminant;
@@ -10,55 +10,58 @@ use super::curve::{Comparison, Curve};
 use crate::plan::Along;
 use crate::table::labels::{self, Scale};
 
-/// Summary of a curve.
+/// Summary of a response, which can be printed as one line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// First and last value of the parameter.
+    /// Smallest and largest value of the followed parameter.
     pub range: [f64; 2],
-    /// Unit of the parameter.
+    /// Unit of the followed parameter.
     pub unit: &'static str,
-    /// Longest step between neighbouring values. The response may miss a band of hysteresis that is narrower than this
-    /// step.
+    /// Longest step between neighbouring values of the parameter. A band of hysteresis that is narrower than
+    /// this step may not be found.
     pub step: f64,
-    /// Longest step between neighbouring values among the steps in which the state changes by more than a tenth.
+    /// Upper limit of the steps in which a state component changes by more than a tenth of its size. flap
+    /// divides longer steps of this kind.
     pub steep_step: f64,
-    /// Largest difference of the stroke (deg, peak to peak) between the branches at values where both branches have the
-    /// same motion.
+    /// Largest difference of the peak-to-peak stroke between the branches (deg), among the values at which
+    /// both branches have the same motion.
     pub difference: f64,
-    /// Bands in which the curve is not a single orbit, in ascending order of the parameter.
+    /// Bands in which the two branches have different motions, or motions that do not repeat every drive
+    /// period. The bands are in ascending order of the parameter.
     pub bands: Vec<Band>,
     /// Reason why the design has no response.
     pub invalid: Option<String>,
 }
 
-/// Neighbouring values at which the curve is not a single orbit.
+/// A band of parameter values at which the two branches have different motions, or motions that do not repeat
+/// every drive period.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Band {
-    /// First and last value.
+    /// First and last value of the parameter in the band.
     pub range: [f64; 2],
     /// Kind of the motions in the band.
     pub kind: BandKind,
 }
 
-/// Kind of motions at values where a curve is not a single orbit.
+/// Kind of the motions in a band in which the response is not a single orbit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BandKind {
-    /// Two different motions: one motion on the upward branch and one motion on the downward branch.
+    /// The upward and the downward branch have two different motions.
     Bistable {
-        /// Largest difference of the strokes of both motions (deg, peak to peak); `None` if at every value one motion
-        /// is not periodic with the drive.
+        /// Largest difference of the peak-to-peak stroke between the two motions (deg). `None` if at every
+        /// value one of the motions does not repeat every drive period.
         jump: Option<f64>,
     },
-    /// Motions that are not periodic with the drive.
+    /// The motions of both branches do not repeat every drive period.
     Irregular {
-        /// Each kind of motion in the band, listed once: the status, and the length in drive periods.
+        /// The different kinds of motion in the band, each with its status and its period (in drive periods).
         what: Vec<(Status, u32)>,
     },
 }
 
 impl Verdict {
-    /// Returns the summary of a curve along `parameter`. `stroke` is the index of the stroke's amplitude (deg) in the
-    /// measures.
+    /// Returns the summary of the response `curve` over `parameter`. `stroke` is the index of the measure
+    /// that contains the stroke amplitude (deg).
     pub fn new(curve: &Curve, along: &Along, parameter: &Parameter<'_>, stroke: usize) -> Verdict {
         let steps = curve.up.windows(2).map(|two| two[1].value - two[0].value);
         let step = steps.fold(0.0, f64::max);
@@ -99,7 +102,7 @@ impl Verdict {
         verdict
     }
 
-    /// Returns the bands with two motions.
+    /// Returns the bistable bands.
     pub fn bistable(&self) -> impl Iterator<Item = &Band> {
         self.bands.iter().filter(|band| matches!(band.kind, BandKind::Bistable { .. }))
     }
@@ -112,7 +115,7 @@ impl BandKind {
         kind
     }
 
-    /// Adds the next value of a band.
+    /// Extends a band by the kind of motion at the next parameter value.
     fn add(&mut self, next: BandKind) {
         match (self, next) {
             (BandKind::Bistable { jump }, BandKind::Bistable { jump: next }) => {
@@ -172,12 +175,13 @@ fn describe((status, period): (Status, u32)) -> String {
     }
 }
 
-/// Returns a value with its unit, with six digits, such as `121.5 Hz`.
+/// Returns a value as text with its unit and at most six digits, such as `121.5 Hz`.
 pub(super) fn at(value: f64, unit: &'static str) -> String {
     length(value, [value; 2], unit)
 }
 
-/// Returns a range as text, such as `from 121.5 to 136 Hz`, or `at 14 mm` for one value.
+/// Returns a range as text, such as `from 121.5 to 136 Hz`. If the range has only one value, the text is for
+/// example `at 14 mm`.
 fn span([from, to]: [f64; 2], unit: &str) -> String {
     let Scale { factor, unit } = scale([from, to], unit);
     let [from, to] = [from, to].map(|value| six_digits(value * factor));
@@ -185,7 +189,8 @@ fn span([from, to]: [f64; 2], unit: &str) -> String {
     text.trim_end().to_owned()
 }
 
-/// Returns a length of steps as text, such as `0.5 Hz`, with the unit prefix of the range.
+/// Returns the length of a step as text, such as `0.5 Hz`. The unit prefix is the same as for the ends of
+/// `range`.
 fn length(value: f64, range: [f64; 2], unit: &str) -> String {
     let Scale { factor, unit } = scale(range, unit);
     format!("{} {unit}", six_digits(value * factor)).trim_end().to_owned()
@@ -199,7 +204,8 @@ fn six_digits(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
-/// Returns a small number with two significant digits, and other numbers with two decimals.
+/// Returns a number as text: numbers below 0.1 with two significant digits, and larger numbers with two
+/// decimals.
 fn digits(x: f64) -> String {
     if x != 0.0 && x.abs() < 0.1 { format!("{x:.1e}") } else { format!("{x:.2}") }
 }
