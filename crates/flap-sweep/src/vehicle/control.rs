@@ -1,4 +1,5 @@
-//! Control effectiveness of a vehicle: the change of mean force and torque with each input.
+//! Computes the control effectiveness of a vehicle: the derivatives of its mean force and torque with respect
+//! to each input.
 
 use flap_core::body::BodyParameters;
 use flap_core::num::Backend;
@@ -13,7 +14,8 @@ use nalgebra::DMatrix;
 use crate::derivative::{self, is_least};
 use crate::notation::{UserError, nearest, text};
 
-/// Words for drive parameters, each with the names in different models.
+/// Words that a user can give for drive parameters. Each word is listed with the names of the parameter in
+/// the models.
 pub const WORDS: [(&str, &[&str]); 6] = [
     ("amplitude", &["drive_voltage_pp"]),
     ("bias", &["drive_offset", "drive_bias"]),
@@ -23,27 +25,28 @@ pub const WORDS: [(&str, &[&str]); 6] = [
     ("third_harmonic", &["drive_third_harmonic"]),
 ];
 
-/// Last part of the names of inputs that are differences between wings.
+/// The ending of input names that denote a difference between the left and the right wings.
 const DIFFERENCE: &str = "_difference";
 
-/// Input of a vehicle: one of its parameters.
+/// An input of a vehicle: a parameter that a controller can change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Input {
-    /// Name as the user gives it: a parameter, or a word such as `bias_difference`.
+    /// Name as the user gives it: the name of a parameter, or a word such as `bias_difference`.
     pub name: String,
     /// Index in the vehicle's parameter table.
     pub parameter: usize,
-    /// Unit for display, such as `V` or `deg`; may be empty.
+    /// Unit in which flap prints the input, such as `V` or `deg`. Empty if the input has no unit.
     pub unit: &'static str,
-    /// Factor from the display unit to SI.
+    /// Factor by which a value in the printed unit is multiplied to obtain SI units.
     pub factor: f64,
 }
 
 impl Input {
-    /// Returns the input called `name`: a parameter of the vehicle, or one of [`WORDS`].
+    /// Returns the input with the given name. The name can be a parameter of the vehicle or one of [`WORDS`].
     ///
-    /// A word without the name of a wing applies to all wings. After the name of a wing, a word applies to this wing
-    /// (`left_bias`), and before `_difference` to the left-right difference.
+    /// A word alone, such as `bias`, applies to all wings. With the name of a wing in front, such as
+    /// `left_bias`, the word applies to this wing. With the ending `_difference`, the word applies to the
+    /// difference between the left and the right wings.
     ///
     /// # Errors
     /// An error if the vehicle has no input with the given name, or if the parameter is a choice.
@@ -69,10 +72,12 @@ impl Input {
         Ok(Input { name: name.to_owned(), parameter: index, unit, factor })
     }
 
-    /// Returns the default inputs of a vehicle: amplitude, bias and, if the drive has harmonics, the second harmonic.
+    /// Returns the default inputs of a vehicle: amplitude and bias of the drive. If the drive has harmonics,
+    /// the second harmonic is also an input.
     ///
-    /// Each word for an input applies to all wings and, if there are wings on both sides, also to the difference.
-    /// `values` are values of the vehicle's parameters. Inputs without a value are left out.
+    /// Each default input changes all wings together. If there are wings on both sides, the difference
+    /// between the left and the right wings is also an input. `values` contains the values of the vehicle's
+    /// parameters. Inputs whose parameter is not set are left out.
     pub fn usual(vehicle: &Vehicle, values: &[f64]) -> Vec<Input> {
         let parameters = vehicle.parameters();
         let shape = Parameter::index(parameters, "drive_shape");
@@ -84,7 +89,8 @@ impl Input {
         inputs.filter(|input| input.unset(vehicle, values).is_none()).collect()
     }
 
-    /// Returns all names of inputs, for suggestions.
+    /// Returns all names that inputs of the vehicle can have. Error messages suggest the nearest of these
+    /// names.
     pub fn names(vehicle: &Vehicle) -> Vec<String> {
         let words = WORDS.iter().flat_map(|(word, _)| {
             let of_wings = vehicle.mounts().iter().map(move |mount| format!("{}_{word}", mount.name));
@@ -96,7 +102,7 @@ impl Input {
         words.chain(numbers.map(|parameter| parameter.name.to_owned())).collect()
     }
 
-    /// Returns the parameter that the input changes, if this parameter has no value and follows other parameters.
+    /// If the parameter that the input changes is not set, returns the name of this parameter.
     fn unset<'v>(&self, vehicle: &'v Vehicle, values: &[f64]) -> Option<&'v str> {
         let parameters = vehicle.parameters();
         let name = parameters[self.parameter].name;
@@ -107,10 +113,11 @@ impl Input {
         standing(parameters, values, index).is_nan().then_some(parameters[index].name)
     }
 
-    /// Returns the change of the input along which its derivatives are computed, in SI units.
+    /// Returns the points before and after a small change of the input, from which derivatives are computed.
     ///
-    /// A parameter that can only grow has a one-sided difference. At rest, this difference would be the square of the
-    /// change.
+    /// If the parameter is zero and cannot be negative, the difference is one-sided, except at rest. At rest,
+    /// mean forces grow with the square of the change, and only a central difference gives the derivative,
+    /// which is zero.
     pub(super) fn change(
         &self,
         vehicle: &Vehicle,
@@ -128,19 +135,19 @@ impl Input {
         Ok(Change { ahead: moved(size), behind, size })
     }
 
-    /// Returns the size (SI) of the input's parameter, to which relative changes refer.
+    /// Returns the size (SI) of the input's parameter, by which changes of the input are divided.
     pub(super) fn size(&self, vehicle: &Vehicle, values: &[f64]) -> Result<f64, ControlError> {
         let size = derivative::size(vehicle, values, self.parameter);
         size.map(f64::abs).ok_or_else(|| ControlError::NoSize(self.name.clone()))
     }
 }
 
-/// Returns the index of the parameter that a name represents.
+/// Returns the index of the parameter that the input with the given name changes.
 fn index(vehicle: &Vehicle, name: &str) -> Option<usize> {
     names(vehicle, name).iter().find_map(|name| Parameter::index(vehicle.parameters(), name))
 }
 
-/// Returns the parameters that a name may represent.
+/// Returns the names of all parameters that an input with the given name may change.
 fn names(vehicle: &Vehicle, name: &str) -> Vec<String> {
     let mut names = vec![name.to_owned()];
     let mut add = |word: &str, first: &str| {
@@ -161,30 +168,30 @@ fn names(vehicle: &Vehicle, name: &str) -> Vec<String> {
     names
 }
 
-/// Components of force and torque: columns of rows.
+/// Names of the six columns that contain the components of mean force and mean torque.
 pub const COMPONENTS: [&str; 6] = [FORCES[0], FORCES[1], FORCES[2], TORQUES[0], TORQUES[1], TORQUES[2]];
 
-/// Effect below which an input is left out, relative to the largest effect of an input. A smaller effect counts as no
-/// effect.
+/// If the effect of an input is below this fraction of the largest effect, the input counts as an input
+/// without effect.
 pub(super) const IDLE: f64 = 1e-9;
 
-/// Reason why a control effectiveness or a trim cannot be computed.
+/// The reason why a control effectiveness or a trim cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ControlError {
-    /// The motion of a wing has no derivatives.
+    /// The motion of a wing is not periodic, so derivatives do not exist.
     #[error("the vehicle does not settle on an orbit of one drive period: it is {}{}", status.name(), because(reason.as_deref()))]
     NotPeriodic {
-        /// Status of the row of the motion.
+        /// Status of the vehicle's row.
         status: Status,
-        /// Reason of an invalid row.
+        /// The reason why the row is invalid, if it is invalid.
         reason: Option<String>,
     },
-    /// A parameter that an input changes has no value.
+    /// The parameter that an input changes is not set.
     #[error("the input `{input}` changes `{parameter}`, which is not set: set `{parameter}` to a value")]
     Unset {
-        /// Input.
+        /// Name of the input.
         input: String,
-        /// Parameter, which follows other parameters.
+        /// Name of the parameter that is not set.
         parameter: String,
     },
     /// An input has the value zero and no typical size.
@@ -193,22 +200,23 @@ pub enum ControlError {
     /// A derivative is missing.
     #[error("the derivative of {of} with respect to `{by}` is missing: {}", reason.name())]
     NoSlope {
-        /// Component.
+        /// Name of the force or torque component.
         of: &'static str,
-        /// Input.
+        /// Name of the input.
         by: String,
-        /// Reason.
+        /// The reason why the derivative is missing.
         reason: NoSlope,
     },
-    /// The trim has more targets than inputs.
+    /// The trim has more targets than inputs with an effect.
     #[error("{targets} targets need at least {targets} inputs with an effect, not only [{inputs}]")]
     FewInputs {
         /// Number of targets.
         targets: usize,
-        /// Names of the inputs.
+        /// Names of the inputs that have an effect on force or torque.
         inputs: String,
     },
-    /// Further iterations do not reduce the distance from the targets. The error contains the nearest values.
+    /// The iteration cannot come closer to the targets. The error contains the nearest values of force and
+    /// torque.
     #[error("the targets are not reached: {0}")]
     NotReached(String),
     /// The motion cannot be computed.
@@ -216,56 +224,59 @@ pub enum ControlError {
     Unfinished(#[from] Unfinished),
 }
 
-/// Returns a reason as the end of a message, such as ` (reason)`; empty without a reason.
+/// Returns a reason in brackets for the end of a message. Without a reason, the text is empty.
 pub(crate) fn because(reason: Option<&str>) -> String {
     reason.map(|reason| format!(" ({reason})")).unwrap_or_default()
 }
 
-/// A vehicle with the settings of its runs. The operating point is an argument of each method.
+/// A vehicle with the settings for computing its motion. The parameter values are arguments of the methods.
 pub struct VehicleRun<'f> {
     /// Vehicle.
     pub vehicle: &'f Vehicle,
     /// Settings of the integration.
     pub solver: &'f SolverSettings,
-    /// Callback that ends the computation early.
+    /// A function that returns true if the computation must end early.
     pub interrupted: Interrupt<'f>,
 }
 
-/// Change of a vehicle's mean force and torque with its inputs.
+/// The control effectiveness of a vehicle: the derivatives of mean force and torque with respect to the
+/// inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Effectiveness {
-    /// Inputs, in the order of the columns.
+    /// The inputs, in the order of the matrix columns.
     pub inputs: Vec<Input>,
-    /// Values of the inputs, each in the unit of the input.
+    /// Values of the inputs at the operating point, each in the printed unit of the input.
     pub values: Vec<f64>,
-    /// Mean force (mN) and torque (uN·m), see [`COMPONENTS`].
+    /// Mean force (mN) and torque (uN·m) at the operating point, in the order of [`COMPONENTS`].
     pub wrench: [f64; 6],
-    /// 6 × inputs matrix: the change of each component, in mN or uN·m, per unit of each input.
+    /// The control matrix, with six rows for the components of force and torque, and one column for each
+    /// input. Each entry is a derivative in mN or uN·m per printed unit of the input.
     pub matrix: DMatrix<f64>,
-    /// Row at the operating point.
+    /// The row of the vehicle at the operating point.
     pub row: Row,
 }
 
-/// A combination of inputs, and the resulting combination of force and torque.
+/// A combination of input changes, and the change of force and torque that it causes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InputCombination {
-    /// Singular value: force (mN) and torque (uN·m, which is mN at 1 mm) per unit of the combination.
+    /// Singular value of the control matrix: the change of force (mN) and torque (uN·m) for a combination of
+    /// length 1. A torque of 1 uN·m is a force of 1 mN at a lever arm of 1 mm.
     pub size: f64,
-    /// Components of force and torque as a unit vector.
+    /// Direction of the change of force and torque, as a unit vector.
     pub components: [f64; 6],
-    /// Inputs as a unit vector.
+    /// Changes of the inputs, as a unit vector.
     pub inputs: Vec<f64>,
 }
 
 impl VehicleRun<'_> {
-    /// Returns the row at the given values of the vehicle's parameters. If `begin` is given, the motion starts from the
-    /// state `begin`.
+    /// Returns the row at the given values of the vehicle's parameters. The motion starts from the state
+    /// `begin`, or from rest if `begin` is `None`.
     pub fn row(&self, values: &[f64], begin: Option<&[f64]>) -> Row {
         let run = PointRun::new(Backend::best(), self.solver, values).until(self.interrupted);
         self.vehicle.run_point(&run, begin)
     }
 
-    /// Returns the row of a periodic motion. [`VehicleRun::row`] has the same arguments.
+    /// Returns the row at the given values, like [`VehicleRun::row`], but only if the motion is periodic.
     ///
     /// # Errors
     /// Returns an error if the motion is not periodic, or if the computation is interrupted.
@@ -280,15 +291,18 @@ impl VehicleRun<'_> {
         }
     }
 
-    /// Returns mean force (mN) and torque (uN·m) of a row with measures.
+    /// Returns the mean force (mN) and torque (uN·m) from the measures of a row. The motion of the row must
+    /// be periodic.
     pub fn wrench(&self, row: &Row) -> [f64; 6] {
         places(self.vehicle).map(|place| row.measures[place])
     }
 
-    /// Returns the control effectiveness of `inputs` at these values, from exact derivatives of the settled orbit.
+    /// Returns the control effectiveness of `inputs` at the given parameter values. The derivatives are exact
+    /// derivatives of the settled orbit.
     ///
-    /// In the four-bar model, derivatives with respect to the motion of the body are central differences.
-    /// An unset parameter of one wing has the value of all wings.
+    /// In the four-bar model, an exact derivative with respect to the body's motion may not exist, because
+    /// forces have kinks. If an exact derivative does not exist, a central difference replaces the
+    /// derivative. If a parameter of one wing is not set, the function uses its value for all wings.
     ///
     /// # Errors
     /// Returns an error if an input has no value, if the motion is not periodic, or if a derivative is missing.
@@ -333,8 +347,8 @@ impl VehicleRun<'_> {
         })
     }
 
-    /// Returns the derivatives of the components, if all derivatives are known. `ahead` is the point after a change of
-    /// the input.
+    /// Returns the derivatives of the six components, or an error if a derivative is missing. `ahead`
+    /// contains the parameter values after a small change of the input.
     fn slopes(
         &self,
         ahead: &[f64],
@@ -353,17 +367,18 @@ impl VehicleRun<'_> {
         Err(ControlError::NoSlope { of, by: input.name.clone(), reason })
     }
 
-    /// Returns the step (m/s, rad/s) for differences with respect to an input that is a motion of the body.
+    /// Returns the step for central differences (m/s or rad/s) if the input is a velocity or rate of the
+    /// body, and otherwise `None`.
     fn motion_step(&self, input: &Input) -> Option<f64> {
         let name = self.vehicle.parameters()[input.parameter].name;
         let component = BodyParameters::MOTION.iter().position(|component| *component == name)?;
         Some(if component < 3 { VELOCITY_STEP } else { RATE_STEP })
     }
 
-    /// Returns the central differences of the components with respect to an input.
+    /// Computes the derivatives of the six components with respect to an input by central differences.
     ///
-    /// These differences replace exact derivatives in the four-bar model, in which the lift jumps at one strip
-    /// after the other.
+    /// In the four-bar model, exact derivatives do not exist at some points, because the lift of each strip
+    /// of the wing jumps.
     fn differences(
         &self,
         values: &[f64],
@@ -381,19 +396,20 @@ impl VehicleRun<'_> {
     }
 }
 
-/// Change of a velocity of the body for computing differences (m/s).
+/// Change of the body's velocity for central differences (m/s).
 const VELOCITY_STEP: f64 = 0.01;
 
-/// Change of a rate of the body for computing differences (rad/s).
+/// Change of the body's angular rates for central differences (rad/s).
 const RATE_STEP: f64 = 1.0;
 
-/// Returns the indices of force and torque among the measures of a vehicle's rows.
+/// Returns the indices of the force and torque components in the measures of a vehicle's row.
 pub(crate) fn places(vehicle: &Vehicle) -> [usize; 6] {
     let columns = vehicle.columns();
     COMPONENTS.map(|name| columns.iter().position(|column| column.name == name).unwrap_or_default())
 }
 
-/// Returns the values, in which each unset parameter of one wing has the value of all wings.
+/// Returns a copy of `values` in which the parameters of all inputs are set. A parameter of one wing that is
+/// not set receives the value for all wings.
 pub(super) fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
     let mut filled = values.to_vec();
     for input in inputs {
@@ -403,7 +419,8 @@ pub(super) fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) ->
 }
 
 impl Effectiveness {
-    /// Returns the vehicle's values with the values of the inputs.
+    /// Returns a copy of `values`, the vehicle's parameter values, in which the inputs have the values of
+    /// this control effectiveness.
     pub fn applied(&self, values: &[f64]) -> Vec<f64> {
         let mut values = values.to_vec();
         for (input, value) in self.inputs.iter().zip(&self.values) {
@@ -412,7 +429,7 @@ impl Effectiveness {
         values
     }
 
-    /// Returns the control effectiveness without inputs that have a negligible effect, unless no input would be left.
+    /// Removes the inputs with a negligible effect. If all effects are zero, all inputs stay.
     pub fn without_idle(mut self, vehicle_run: &VehicleRun<'_>, values: &[f64]) -> Effectiveness {
         let effects = self.inputs.iter().enumerate().map(|(j, input)| {
             let size = input.size(vehicle_run.vehicle, values).unwrap_or_default() / input.factor;
@@ -429,9 +446,10 @@ impl Effectiveness {
         self
     }
 
-    /// Returns the combinations of inputs that produce force and torque, beginning with the strongest combination.
+    /// Returns combinations of input changes whose effects on force and torque are perpendicular to each
+    /// other. The combination with the largest effect comes first.
     ///
-    /// The combinations and their effects are the singular value decomposition of the matrix.
+    /// The combinations are computed by singular value decomposition of the control matrix.
     pub fn combinations(&self) -> Vec<InputCombination> {
         let decomposed = self.matrix.clone().svd(true, true);
         let (Some(u), Some(v_t)) = (decomposed.u, decomposed.v_t) else { return Vec::new() };
@@ -469,7 +487,8 @@ mod tests {
         assert!((combination.components[4] + 1.0).abs() < 1e-12, "{combination:?}");
     }
 
-    /// The matrix times the inputs of a combination is its size times its force and torque.
+    /// Checks that the matrix times the inputs of a combination equals the singular value times the
+    /// combination's force and torque.
     #[test]
     fn combinations_have_the_effect_of_the_matrix() {
         let matrix = DMatrix::from_fn(6, 3, |i, j| (1.3 * i as f64 + 0.7 * (i * j) as f64 + 2.9).sin());

@@ -1,12 +1,12 @@
-//! Simulation of the flight of a vehicle over time: the coupled motion of wings and body, or the linear model about
-//! hover.
+//! Simulates the flight of a vehicle over time, either with the coupled motion of wings and body, or with the
+//! linear model about hover.
 //!
-//! The body is rigid. The force and torque of the air on the wings at each instant act on the body. The wings respond
-//! to velocity and rates of the body, but not to the acceleration of the body. The inertial forces of the light wings
-//! do not act on the body.
+//! The body is rigid. At each instant, the force and torque of the air on the wings accelerate the body. The
+//! motion of the wings depends on the velocity and the angular rates of the body, but not on its
+//! acceleration. The inertial forces of the wings on the body are neglected, because the wings are light.
 //!
-//! A feedback of the states changes the inputs at the beginning of each wing beat. The feedback uses means over the
-//! last beat.
+//! A feedback can change the inputs at the beginning of each wing beat. The feedback uses the mean states
+//! over the previous beat.
 
 use core::f64::consts::TAU;
 
@@ -19,57 +19,62 @@ use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3, V
 use super::control::{COMPONENTS, ControlError, Input, VehicleRun, own_values};
 use super::hover::{HoverError, HoverModel, STATES, WRENCH_TO_SI, body_at_rest, inertia, inverse_mass};
 
-/// Number of states of a disturbance and of the feedback: velocities, rates and angles.
+/// Number of states that a disturbance and the feedback use: three velocities, three rates and three angles.
 pub const FED_BACK: usize = 9;
 
-/// Largest number of wing beats.
+/// Largest number of wing beats of a simulated flight.
 const MOST_BEATS: f64 = 1e6;
 
 /// Settings of a flight simulation.
 #[derive(Clone, Debug)]
 pub struct FlightRequest {
-    /// Duration (s). The flight ends with the wing beat that contains the end of the duration.
+    /// Duration of the flight (s), which is rounded up to full wing beats.
     pub seconds: f64,
-    /// Velocities (m/s), rates (rad/s) and angles (rad) of the body at the beginning, without the vibration of each beat.
+    /// Velocities (m/s), rates (rad/s) and angles (rad) of the body at the beginning of the flight, without
+    /// the vibration during a wing beat.
     pub disturbance: [f64; FED_BACK],
-    /// Inputs, which are columns of the record.
+    /// The inputs of the vehicle that the feedback changes. The record has one column for each input.
     pub inputs: Vec<Input>,
-    /// Gains K of a feedback: the inputs are the values at the point minus K x. The shape of the gains is inputs ×
-    /// [`FED_BACK`], in SI units.
+    /// Gains K of the feedback, in SI units: K x is subtracted from the initial inputs, where x contains the
+    /// states. The matrix has one row for each input and [`FED_BACK`] columns.
     pub gains: Option<DMatrix<f64>>,
-    /// True if the flight uses the linear model about hover instead of the coupled motion.
+    /// True to simulate the linear model about hover, and false to simulate the coupled motion of wings and
+    /// body.
     pub is_averaged: bool,
-    /// Number of samples in each beat. Without samples, each row contains means over a beat.
+    /// Number of rows for each wing beat. If `None`, there is one row for each beat, with means over the
+    /// beat.
     pub samples: Option<u32>,
 }
 
 /// A simulated flight.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlightRecord {
-    /// Names of the columns: time, states, inputs, and force and torque.
+    /// Names of the columns: time, states, inputs, force and torque.
     pub columns: Vec<String>,
-    /// One row for each beat, at the middle of the beat, or one row for each sample.
+    /// The rows of the record. A row with means over a beat has the time in the middle of the beat.
     pub rows: Vec<Vec<f64>>,
-    /// Reason for an early end; `None` if the flight reaches its duration.
+    /// The reason why the flight ended early. `None` if the flight has its full duration.
     pub end: Option<String>,
 }
 
-/// Reason why a flight cannot be simulated.
+/// The reason why a flight cannot be simulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FlightError {
-    /// The request is impossible. The error contains the mistake and the allowed values.
+    /// The settings of the flight are not allowed. The text describes the mistake and the allowed values.
     #[error("{0}")]
     Request(String),
-    /// The hover model, or the settled motion of the wings, cannot be computed.
+    /// The linear model about hover or the settled motion of the wings cannot be computed.
     #[error(transparent)]
     Hover(#[from] HoverError),
 }
 
-/// Simulates the flight from the settled motion of the wings at these values of the vehicle's parameters.
+/// Simulates a flight. At the beginning, the wings have the settled motion for `values`, the values of the
+/// vehicle's parameters.
 ///
 /// # Errors
-/// Returns an error for an impossible request, missing mass properties, a moving body, or a motion of the wings that is
-/// not periodic. If a flight fails later, its record ends early.
+/// Returns an error if the settings are not allowed, if mass properties are missing, or if parameters set a
+/// motion of the body. A motion of the wings that is not periodic at the beginning is also an error. If the
+/// simulation fails later, the record ends early and contains the reason.
 pub fn fly(
     vehicle_run: &VehicleRun<'_>,
     values: &[f64],
@@ -144,7 +149,7 @@ pub fn fly(
     Ok(record)
 }
 
-/// Checks that the values of the inputs (SI) are in the ranges of their parameters.
+/// Checks that each input value (SI) is in the allowed range of its parameter.
 fn check_ranges(vehicle_run: &VehicleRun<'_>, inputs: &[Input], values: &DVector<f64>) -> Result<(), String> {
     for (input, &value) in inputs.iter().zip(values.iter()) {
         let parameter = &vehicle_run.vehicle.parameters()[input.parameter];
@@ -157,7 +162,7 @@ fn check_ranges(vehicle_run: &VehicleRun<'_>, inputs: &[Input], values: &DVector
     Ok(())
 }
 
-/// Returns the names of the columns of a record.
+/// Returns the names of the columns of a flight record.
 fn columns(inputs: &[Input]) -> Vec<String> {
     let states = STATES.iter().map(|(name, unit)| format!("{name}_{}", unit.replace('/', "_")));
     let names = core::iter::once("time_s".to_owned()).chain(states);
@@ -171,37 +176,38 @@ fn row(time: f64, at: &BodyState, inputs: &DVector<f64>) -> Vec<f64> {
     core::iter::once(time).chain(states).chain(wrench).collect()
 }
 
-/// States of the body, see [`STATES`], with force (N) and torque (N·m).
+/// The states of the body in the order of [`STATES`], with the force (N) and the torque (N·m) on the body.
 struct BodyState {
     states: [f64; 12],
     wrench: [f64; 6],
 }
 
-/// Motion of a vehicle, beat by beat.
+/// A simulated motion of a vehicle, which is computed wing beat by wing beat.
 trait Motion {
     /// Returns the duration of the current wing beat (s).
     fn period(&self) -> f64;
 
-    /// Advances the motion between two times within the beat (s), or returns the reason for the end of the flight.
+    /// Integrates the motion between two times within the beat (s). The error value describes why the flight
+    /// ends early.
     fn advance(&mut self, from: f64, to: f64) -> Result<(), String>;
 
-    /// Returns the state at a time within the beat (s), up to which the motion has advanced.
+    /// Returns the state at a time within the beat (s). The motion must be integrated up to this time.
     fn state(&mut self, time: f64) -> BodyState;
 
-    /// Ends the beat and returns the means over the beat.
+    /// Ends the wing beat and returns the means over the beat.
     fn end_beat(&mut self) -> BodyState;
 
-    /// Changes the inputs (SI) for the next beat, or returns the reason why the new inputs are impossible.
+    /// Sets the inputs (SI) for the next beat. The error value describes why the new inputs are impossible.
     fn set_inputs(&mut self, inputs: &DVector<f64>) -> Result<(), String>;
 }
 
-/// Number of states of the body: velocities, rates, attitude as a quaternion, and position.
+/// Number of integrated states of the body: velocities, rates, attitude as a quaternion, and position.
 const BODY: usize = 13;
 
-/// Number of integrals over a beat: of the states of the body, and of force and torque.
+/// Number of integrals over a wing beat: integrals of the body's states, and of force and torque.
 const INTEGRALS: usize = BODY + 6;
 
-/// Sizes of the body's states, to which tolerances refer.
+/// Typical sizes of the body's states, by which the absolute tolerance of the integration is multiplied.
 const BODY_SCALE: [f64; BODY] = [0.1, 0.1, 0.1, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 0.01, 0.01, 0.01];
 
 /// The coupled motion of wings and body.
@@ -214,14 +220,14 @@ struct Coupled<'a> {
     values: Vec<f64>,
     inputs: &'a [Input],
     equations: Equations,
-    /// States of wings and body, and integrals since the beginning of the beat.
+    /// The states of the wings, the states of the body, and the integrals since the beginning of the beat.
     y: Vec<f64>,
     integrator: Integrator<'a>,
-    /// Last yaw angle (rad), which is continuous over full turns.
+    /// The latest yaw angle (rad). The angle does not jump after a full turn of the body.
     heading: f64,
 }
 
-/// Equations of the coupled motion.
+/// Equations of the coupled motion of wings and body.
 struct Equations {
     wings: MovingWings,
     /// Number of states of all wings.
@@ -258,7 +264,8 @@ impl<'a> Coupled<'a> {
         Ok(coupled)
     }
 
-    /// Begins a flight with settled wings, and with the given velocities, rates and angles of the body.
+    /// Sets the initial state: `wings` contains the states of the wings, and `body` the velocities, rates and
+    /// angles of the body.
     fn begin(&mut self, wings: &[f64], body: &[f64; FED_BACK]) {
         let [roll, pitch, yaw] = [body[6], body[7], body[8]];
         let attitude = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
@@ -268,9 +275,11 @@ impl<'a> Coupled<'a> {
         self.y.resize(self.integrator.scale.len(), 0.0);
     }
 
-    /// Returns the part of the mean velocities, rates and angles over the first beat that vibration alone causes.
+    /// Returns the mean velocities, rates and angles over the first beat that only the vibration of the body
+    /// causes.
     ///
-    /// This part is the mean over a beat that begins at rest, minus the mean of a linear change to the same end.
+    /// The result is the mean over a beat that begins at rest, minus half of the value at the end of the
+    /// beat. For a linear change that begins at rest, the mean is half of the end value.
     fn vibration(&mut self) -> Result<[f64; FED_BACK], String> {
         let period = self.period();
         self.advance(0.0, period)?;
@@ -279,7 +288,8 @@ impl<'a> Coupled<'a> {
         Ok(core::array::from_fn(|i| mean[i] - 0.5 * end[i]))
     }
 
-    /// Returns the states of the body, see [`STATES`]; `body` begins with the body's integrated states.
+    /// Converts the integrated states of the body, with a quaternion, to the states in [`STATES`], with
+    /// angles.
     fn body(&self, body: &[f64]) -> [f64; 12] {
         let attitude = UnitQuaternion::from_quaternion(quaternion(&body[6..10]));
         let (roll, pitch, yaw) = attitude.euler_angles();
@@ -287,7 +297,7 @@ impl<'a> Coupled<'a> {
         [body[0], body[1], body[2], body[3], body[4], body[5], roll, pitch, yaw, body[10], body[11], body[12]]
     }
 
-    /// Returns the mean states over a beat. Angles are computed from the mean quaternion.
+    /// Returns the mean states over a wing beat. The mean angles are computed from the mean quaternion.
     fn means(&self, period: f64) -> [f64; 12] {
         let integrals = &self.y[self.equations.of_wings + BODY..];
         self.body(&integrals[..BODY].iter().map(|integral| integral / period).collect::<Vec<f64>>())
@@ -336,13 +346,13 @@ impl Motion for Coupled<'_> {
     }
 }
 
-/// Returns the quaternion (w, x, y, z).
+/// Returns the quaternion with the components w, x, y and z.
 fn quaternion(numbers: &[f64]) -> Quaternion<f64> {
     Quaternion::new(numbers[0], numbers[1], numbers[2], numbers[3])
 }
 
 impl Equations {
-    /// Computes the derivative of states and integrals.
+    /// Computes the time derivatives of the states and the integrals.
     fn derivative(&self, t: f64, y: &[f64], slope: &mut [f64]) {
         let (wings, rest) = y.split_at(self.of_wings);
         let (of_wings, of_rest) = slope.split_at_mut(self.of_wings);
@@ -366,21 +376,22 @@ impl Equations {
     }
 }
 
-/// Dormand-Prince 5(4) with step-size control, for any number of states.
+/// The Dormand-Prince 5(4) method with step-size control, for any number of states.
 ///
-/// [`flap_core::ode::solve`] needs the number of states at compile time. Here, the number of wings determines the number
-/// of states.
+/// [`flap_core::ode::solve`] requires the number of states at compile time. The number of states of a flight
+/// depends on the number of wings.
 struct Integrator<'a> {
-    /// Tolerances, relative to each state and to its typical size, and the largest number of steps of an integration.
+    /// The relative and the absolute tolerance, and the largest number of steps of one integration.
     solver: &'a SolverSettings,
-    /// Typical size of each state; infinite if the error of the state does not count.
+    /// Typical size of each state. For integrals the size is infinite, so that their errors do not limit the
+    /// step size.
     scale: Vec<f64>,
-    /// Next step (s).
+    /// Length of the next step (s).
     step: f64,
 }
 
 impl Integrator<'_> {
-    /// Integrates from the first to the second time (s), or returns the reason for a failure.
+    /// Integrates `y` between two times (s). The error value describes why the integration failed.
     fn advance(
         &mut self,
         equations: &Equations,
@@ -439,19 +450,20 @@ impl Integrator<'_> {
 /// Number of states of the linear model.
 const N: usize = STATES.len();
 
-/// The linear model about hover, with the mean force and torque over each beat.
+/// The flight by the linear model about hover, in which force and torque are means over a wing beat.
 struct Averaged {
     hover: HoverModel,
-    /// Values of the inputs at the point (SI).
+    /// Values of the inputs at the operating point (SI).
     point: DVector<f64>,
-    /// Changes of the inputs.
+    /// Current inputs minus the inputs at the operating point (SI).
     change: DVector<f64>,
-    /// Accelerations that the residual force and torque at the point cause.
+    /// Accelerations of the body that the unbalanced force and torque at the operating point cause.
     residual: DVector<f64>,
-    /// The N states, their integrals since the beginning of the beat, and the constant 1.
+    /// The 12 states, the integrals of the states since the beginning of the beat, and the constant 1.
     y: DVector<f64>,
-    /// Drive frequency (Hz), and the index of the drive frequency among the inputs.
+    /// Drive frequency (Hz).
     frequency: f64,
+    /// Position of the drive frequency in the list of inputs, if the drive frequency is an input.
     frequency_input: Option<usize>,
 }
 
@@ -480,7 +492,8 @@ impl Averaged {
         })
     }
 
-    /// Returns the state of the body, with the force and torque that belong to it; `states` begins with the N states.
+    /// Returns the state of the body, with the force and torque that the linear model gives for this state.
+    /// The first 12 elements of `states` are the state.
     fn body(&self, states: &[f64]) -> BodyState {
         let hover = &self.hover;
         let wrench = hover.damping * Vector6::from_column_slice(&states[..6]) + &hover.control * &self.change;
@@ -496,7 +509,8 @@ impl Motion for Averaged {
         1.0 / self.frequency
     }
 
-    /// Advances the linear model by a matrix exponential, which includes the integrals of the states and a constant.
+    /// Computes the states at the time `to` by a matrix exponential. The matrix also contains the integrals
+    /// of the states and a constant.
     fn advance(&mut self, from: f64, to: f64) -> Result<(), String> {
         let hover = &self.hover;
         let mut matrix = DMatrix::zeros(2 * N + 1, 2 * N + 1);

@@ -1,8 +1,9 @@
-//! Linear model of a vehicle near hover: state matrices, eigenvalues, and modes of motion with their names.
+//! Computes the linear model of a vehicle near hover: state and input matrix, eigenvalues, and named modes of
+//! motion.
 //!
-//! The wings are quasi-static: the mean wrench of a drive period depends on the velocity and the rates of the body
-//! and on the inputs. The reference point of the torques must be the centre of mass. Velocities and rates are in body
-//! axes: x forward, y to the left, z up. All numbers are in SI units.
+//! The wings are treated as quasi-static: the mean force and torque depend only on the present inputs,
+//! velocity and rates of the body. Torques must be given about the centre of mass. Velocities and rates are
+//! in body axes: x forward, y to the left, z up. All numbers are in SI units.
 
 use core::f64::consts::{LN_2, TAU};
 
@@ -15,7 +16,7 @@ use nalgebra::{Complex, DMatrix, Matrix3, Matrix6, SMatrix, Schur, Vector6};
 use super::control::{COMPONENTS, ControlError, Effectiveness, Input, VehicleRun};
 use super::trim::{self, Target};
 
-/// Names and units of the states: velocities, rates, small angles about the body axes, and positions.
+/// Names and units of the states: velocities, angular rates, small angles about the body axes, and positions.
 pub const STATES: [(&str, &str); 12] = [
     ("velocity_forward", "m/s"),
     ("velocity_left", "m/s"),
@@ -31,16 +32,16 @@ pub const STATES: [(&str, &str); 12] = [
     ("position_up", "m"),
 ];
 
-/// Units of the components of the wrench, in SI units.
+/// SI units of the three force components and the three torque components.
 pub const WRENCH_UNITS: [&str; 6] = ["N", "N", "N", "N*m", "N*m", "N*m"];
 
-/// Factors from the units of a row's wrench, mN and uN·m, to N and N·m.
+/// Factors that convert the force and torque of a row, in mN and uN·m, to N and N·m.
 pub const WRENCH_TO_SI: [f64; 6] = [1e-3, 1e-3, 1e-3, 1e-6, 1e-6, 1e-6];
 
 /// Number of states that determine the accelerations: velocities, rates, roll angle and pitch angle.
 const DYNAMIC: usize = 8;
 
-/// The states of each kind of motion.
+/// Names of motions, each with the indices of its states.
 const MOTIONS: [(&str, &[usize]); 10] = [
     ("forward velocity", &[0]),
     ("sideways velocity", &[1]),
@@ -54,31 +55,35 @@ const MOTIONS: [(&str, &[usize]); 10] = [
     ("height", &[11]),
 ];
 
-/// States of the longitudinal motion, in the plane of x and z.
+/// Indices of the states of the longitudinal motion, which is the motion in the plane of x and z.
 const LONGITUDINAL: [usize; 6] = [0, 2, 4, 7, 9, 11];
 
-/// Participation below which a motion is not part of a mode's name.
+/// The name of a mode contains all motions whose participation in the mode is at least this value.
 const NAMED_SHARE: f64 = 0.2;
 
-/// Largest participation of the states of the other plane in a longitudinal or lateral mode.
+/// A mode is called longitudinal if the participation of the lateral states is at most this value. A mode is
+/// called lateral if the participation of the longitudinal states is at most this value.
 const COUPLED_SHARE: f64 = 0.1;
 
-/// Magnitude of an eigenvalue, relative to the largest eigenvalue, below which the eigenvalue counts as zero.
+/// If the magnitude of an eigenvalue is at most this fraction of the largest magnitude, the eigenvalue counts
+/// as zero.
 const NEUTRAL: f64 = 1e-10;
 
-/// Largest residual of a trim, as a fraction of the weight.
+/// Largest unbalanced force that is accepted as hover, as a fraction of the weight.
 pub(crate) const TRIM_LIMIT: f64 = 1e-2;
 
-/// Lever arm (m): the limit of torques is the limit of forces times this length.
+/// The largest accepted unbalanced torque is the largest accepted unbalanced force times this length (m).
 const TRIM_LEVER: f64 = 1e-3;
 
-/// Returns the force (N) or torque (N·m) to which each residual refers: the weight, or the weight times 1 mm.
+/// Returns the sizes by which unbalanced forces and torques are divided: the weight (N), and the weight times
+/// 1 mm (N·m).
 fn residual_sizes(body: &MassProperties) -> [f64; 6] {
     let weight = body.mass * body.gravity;
     core::array::from_fn(|i| if i < 3 { weight } else { weight * TRIM_LEVER })
 }
 
-/// Returns the largest residual of the wrench (N and N·m), relative to [`residual_sizes`].
+/// Returns the largest unbalanced component of a wrench (N and N·m) at hover. Each component is divided by
+/// its size in [`residual_sizes`].
 pub(super) fn residual_share(body: &MassProperties, wrench: &[f64; 6]) -> f64 {
     let sizes = residual_sizes(body);
     let share = |i: usize| wrench[i] / sizes[i] - if i == 2 { 1.0 } else { 0.0 };
@@ -88,33 +93,35 @@ pub(super) fn residual_share(body: &MassProperties, wrench: &[f64; 6]) -> f64 {
 const NOT_POSITIVE: &str = "the inertia of the body is not positive definite: moments must be positive, and the square of \
     body_inertia_product must be smaller than body_inertia_roll times body_inertia_yaw";
 
-/// Reason why a hover model cannot be computed.
+/// The reason why the linear model about hover cannot be computed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum HoverError {
-    /// Some mass properties are not set.
+    /// Some mass properties of the vehicle are not set.
     #[error("the hover model requires {}: set {}", .0.join(", "), if .0.len() == 1 { "it" } else { "them" })]
     Missing(Vec<&'static str>),
-    /// No body has these mass properties. The error contains the condition that the mass properties violate.
+    /// No rigid body can have these mass properties. The text describes the condition that the mass
+    /// properties violate.
     #[error("{0}")]
     Impossible(String),
-    /// The model has no parameters of a body's motion.
+    /// The model has no parameters for the velocity and the rates of the body.
     #[error("the model has no parameters for the motion of the body, such as body_velocity_forward")]
     NoBodyMotion,
-    /// The body moves.
+    /// A parameter sets a velocity or rate of the body, but the body must be at rest.
     #[error("`{0}` is not zero, but the hover model requires a body at rest")]
     Moving(&'static str),
-    /// A derivative cannot be computed.
+    /// A motion or a derivative cannot be computed.
     #[error(transparent)]
     Control(#[from] ControlError),
-    /// The inputs do not reach hover.
+    /// The search finds no values of the inputs at which the vehicle hovers.
     #[error("the vehicle does not reach hover: {0}")]
     Trim(ControlError),
-    /// The iteration for the eigenvalues does not end, or a matrix contains NaN.
+    /// The computation of the eigenvalues does not converge, or the state matrix contains values that are not
+    /// finite.
     #[error("the eigenvalues of the hover model cannot be computed")]
     Eigenvalues,
 }
 
-/// Checks that all mass properties are given, and that a body can have these moments of inertia.
+/// Checks that all mass properties are set, and that a rigid body can have these moments of inertia.
 fn check(body: &MassProperties) -> Result<(), HoverError> {
     let [roll, pitch, yaw] = body.inertia;
     let named = [
@@ -152,17 +159,18 @@ fn check(body: &MassProperties) -> Result<(), HoverError> {
     Ok(())
 }
 
-/// Checks that velocity and rates of the body are zero.
+/// Checks that the parameters set no velocity and no rates of the body.
 fn at_rest(vehicle: &Vehicle, values: &[f64]) -> Result<(), HoverError> {
     let index = |name: &str| Parameter::index(vehicle.parameters(), name);
     let is_moving = |name: &&str| index(name).is_some_and(|index| values[index] != 0.0);
     BodyParameters::MOTION.into_iter().find(is_moving).map_or(Ok(()), |name| Err(HoverError::Moving(name)))
 }
 
-/// Returns the mass properties of a vehicle at rest.
+/// Returns the mass properties of a vehicle whose body is at rest.
 ///
 /// # Errors
-/// Returns an error if mass properties are missing or impossible, or if the body moves.
+/// Returns an error if mass properties are missing or impossible, or if a velocity or rate of the body is not
+/// zero.
 pub(super) fn body_at_rest(vehicle: &Vehicle, values: &[f64]) -> Result<MassProperties, HoverError> {
     let body = vehicle.mass_properties(values);
     check(&body)?;
@@ -170,13 +178,14 @@ pub(super) fn body_at_rest(vehicle: &Vehicle, values: &[f64]) -> Result<MassProp
     Ok(body)
 }
 
-/// Returns the derivatives of force (N) and torque (N·m) with respect to velocity (m/s) and rates (rad/s) of the body.
+/// Returns the damping matrix: the derivatives of force (N) and torque (N·m) with respect to velocity (m/s)
+/// and rates (rad/s) of the body.
 ///
-/// `begin` is the state of the settled motion at the operating point.
+/// The motion starts from the state `begin`, which should be a state of the settled motion.
 ///
 /// # Errors
-/// Returns an error if the model has no motion of the body, if the motion is not periodic, or if a derivative is
-/// missing.
+/// Returns an error if the model has no parameters for the body's motion. A motion that is not periodic, and
+/// a missing derivative, are also errors.
 pub fn damping(
     vehicle_run: &VehicleRun<'_>,
     values: &[f64],
@@ -188,8 +197,8 @@ pub fn damping(
     Ok(Matrix6::from_fn(|i, j| found.matrix[(i, j)] * WRENCH_TO_SI[i]))
 }
 
-/// Returns the targets of a trim to hover: the upward force is the weight, and all torques are zero. Returns `None` if
-/// the mass is not set.
+/// Returns the targets of a trim to hover: the upward force must equal the weight, and all torques must be
+/// zero. Returns `None` if the mass is not set.
 pub fn targets(body: &MassProperties) -> Option<Vec<Target>> {
     let weight = body.mass * body.gravity;
     let torques = (3..6).map(|component| Target { component, value: 0.0 });
@@ -197,11 +206,13 @@ pub fn targets(body: &MassProperties) -> Option<Vec<Target>> {
     weight.is_finite().then(|| core::iter::once(lift).chain(torques).collect())
 }
 
-/// Returns the control effectiveness at hover, with inputs near `values`. Inputs without effect keep their values.
+/// Searches values of the inputs at which the vehicle hovers, beginning at `values`. Returns the control
+/// effectiveness at hover. Inputs without effect are left out and keep their values.
 ///
 /// # Errors
-/// Returns an error if the mass is not set, the mass properties are impossible, the body moves, or no trim exists. The
-/// moments of inertia may be missing.
+/// Returns an error if the mass is not set, if the mass properties are impossible, or if the search finds no
+/// hover. A velocity or rate of the body that is not zero is also an error. The moments of inertia need not
+/// be set.
 pub fn trim(
     vehicle_run: &VehicleRun<'_>,
     values: &[f64],
@@ -223,41 +234,48 @@ pub fn trim(
     }
 }
 
-/// Motion that belongs to one real eigenvalue, or to a pair of complex eigenvalues.
+/// A mode of motion, with one real eigenvalue or a pair of complex eigenvalues.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HoverMode {
-    /// Eigenvalue (1/s), with a positive imaginary part if it belongs to a pair.
+    /// Eigenvalue of the mode (1/s). Of a complex pair, this is the eigenvalue with the positive imaginary
+    /// part.
     pub eigenvalue: Complex<f64>,
-    /// Participation of each state; the sum is one. Participations do not depend on units.
+    /// Participation of each state in the mode. The sum over all states is 1. The participation does not
+    /// depend on the units of the states.
     ///
     /// Source: Pérez-Arriaga, Verghese and Schweppe, IEEE Transactions on Power Apparatus and Systems 101 (1982) 3117.
     pub participation: Vec<f64>,
 }
 
-/// Linear model x' = A x + B s of small deviations from hover, with the outputs x.
+/// The linear model x' = A x + B s of small deviations x from hover, with the input changes s. The outputs
+/// are the states x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HoverModel {
-    /// Mass properties.
+    /// Mass properties of the vehicle.
     pub body: MassProperties,
-    /// Derivatives of force and torque (rows) with respect to velocity and rates (columns). The units of the four
-    /// blocks are N·s/m, N·s, N·s and N·m·s.
+    /// The damping matrix: derivatives of force and torque (rows) with respect to velocity and rates of the
+    /// body (columns). The units of its four blocks are N·s/m, N·s, N·s and N·m·s.
     pub damping: Matrix6<f64>,
-    /// Derivatives of force (N) and torque (N·m) with respect to the inputs (SI): 6 × inputs.
+    /// The control matrix: derivatives of force (N) and torque (N·m) with respect to the inputs (SI). The
+    /// matrix has six rows and one column for each input.
     pub control: DMatrix<f64>,
     /// Mean force (N) and torque (N·m) at the operating point.
     pub wrench: [f64; 6],
-    /// State matrix: 9 × 9, or 12 × 12 with positions. [`STATES`] lists the states.
+    /// State matrix A, with 9 × 9 entries, or 12 × 12 entries if positions are states. [`STATES`] lists the
+    /// states.
     pub a: DMatrix<f64>,
-    /// Input matrix: one column for each input.
+    /// Input matrix B, with one column for each input.
     pub b: DMatrix<f64>,
-    /// Modes, in descending order of the real part of the eigenvalue.
+    /// The modes, in descending order of the real part of their eigenvalues.
     pub modes: Vec<HoverMode>,
 }
 
 impl HoverModel {
-    /// Returns the linear model about an operating point.
+    /// Returns the linear model about an operating point, computed from the damping matrix and the control
+    /// matrix.
     ///
-    /// The arguments are fields of the linear model. With `has_position`, the states include positions.
+    /// The fields of [`HoverModel`] describe the arguments. If `has_position` is true, the states include
+    /// positions.
     ///
     /// # Errors
     /// Returns an error if mass properties are missing or impossible, or if the eigenvalues cannot be computed.
@@ -288,10 +306,12 @@ impl HoverModel {
         Ok(HoverModel { body, damping, control, wrench, a, b, modes })
     }
 
-    /// Returns the linear model at an operating point with these inputs and values of the vehicle's parameters.
+    /// Computes the linear model at an operating point. `values` contains the vehicle's parameter values, and
+    /// `at` the control effectiveness at this operating point.
     ///
     /// # Errors
-    /// Returns an error if mass properties are missing or impossible, if the body moves, or if a derivative is missing.
+    /// Returns an error if mass properties are missing or impossible, or if a derivative is missing. A
+    /// velocity or rate of the body that is not zero is also an error.
     pub fn at(
         vehicle_run: &VehicleRun<'_>,
         values: &[f64],
@@ -307,12 +327,13 @@ impl HoverModel {
         HoverModel::new(body, damping, control, wrench, has_position)
     }
 
-    /// Returns names and units of the states, which are also the outputs.
+    /// Returns the names and units of the states. The outputs have the same names and units.
     pub fn states(&self) -> &'static [(&'static str, &'static str)] {
         &STATES[..self.a.nrows()]
     }
 
-    /// Returns all eigenvalues in descending order of the real part, with the eigenvalues of a pair together.
+    /// Returns all eigenvalues in descending order of the real part. The two eigenvalues of a complex pair
+    /// are neighbours in the list.
     pub fn eigenvalues(&self) -> Vec<Complex<f64>> {
         let each = self.modes.iter().flat_map(|mode| {
             let pair = (mode.eigenvalue.im > 0.0).then(|| mode.eigenvalue.conj());
@@ -321,27 +342,30 @@ impl HoverModel {
         each.collect()
     }
 
-    /// Returns the mode with the largest real part, without heading and positions, whose eigenvalues are always zero.
+    /// Returns the mode with the largest real part of its eigenvalue. Modes of heading and position are left
+    /// out, because their eigenvalues are always zero.
     pub fn fastest_growing(&self) -> Option<&HoverMode> {
         self.modes.iter().find(|mode| mode.participation[DYNAMIC..].iter().all(|share| *share == 0.0))
     }
 
-    /// Returns the force (N) and torque (N·m) that are not balanced: the wrench minus the weight.
+    /// Returns the unbalanced force (N) and torque (N·m) at the operating point: the mean force minus the
+    /// weight, and the mean torque.
     pub fn residual(&self) -> [f64; 6] {
         let mut residual = self.wrench;
         residual[2] -= self.body.mass * self.body.gravity;
         residual
     }
 
-    /// Returns the largest residual of each force (N) and torque (N·m) that is accepted as hover.
+    /// Returns the largest unbalanced force (N) and torque (N·m) that is accepted as hover, for each
+    /// component.
     pub fn residual_limits(&self) -> [f64; 6] {
         residual_sizes(&self.body).map(|size| TRIM_LIMIT * size)
     }
 
-    /// Returns the reasons why the linear model may be inaccurate, from the drive frequency (Hz) and the largest
-    /// Floquet multiplier.
+    /// Returns warnings for the user if the linear model may be inaccurate. `frequency` is the drive
+    /// frequency (Hz), and `floquet_max` the largest magnitude of the Floquet multipliers.
     ///
-    /// If a Floquet multiplier is NaN, the decay rate of the wings is not checked.
+    /// If `floquet_max` is NaN, flap does not check that the wings settle faster than the body moves.
     pub fn warnings(&self, frequency: f64, floquet_max: f64) -> Vec<String> {
         let limits = self.residual_limits();
         let mut warnings = Vec::new();
@@ -375,19 +399,19 @@ impl HoverModel {
     }
 }
 
-/// Returns the name of a component of the wrench without its unit, such as `force_up`.
+/// Returns the name of a force or torque component without its unit, such as `force_up`.
 pub fn component(i: usize) -> &'static str {
     COMPONENTS[i].rsplit_once('_').map_or(COMPONENTS[i], |(name, _)| name)
 }
 
-/// Returns the inertia matrix (kg·m²).
+/// Returns the inertia matrix of the body (kg·m²).
 pub(super) fn inertia(body: &MassProperties) -> Matrix3<f64> {
     let mut inertia = Matrix3::from_diagonal(&body.inertia.into());
     (inertia[(0, 2)], inertia[(2, 0)]) = (-body.product, -body.product);
     inertia
 }
 
-/// Returns the inverse of the matrix of mass and inertia.
+/// Returns the inverse of the 6 × 6 matrix that contains the mass and the inertia matrix of the body.
 pub(super) fn inverse_mass(body: &MassProperties) -> Result<Matrix6<f64>, HoverError> {
     let of_inertia = inertia(body).try_inverse();
     let of_inertia = of_inertia.ok_or_else(|| HoverError::Impossible(NOT_POSITIVE.to_owned()))?;
@@ -396,11 +420,11 @@ pub(super) fn inverse_mass(body: &MassProperties) -> Result<Matrix6<f64>, HoverE
     Ok(inverse)
 }
 
-/// Returns the modes of the state matrix.
+/// Computes the modes of motion from the state matrix.
 ///
-/// Heading and position have no effect on the other states. Each of these states adds an eigenvalue of zero, whose mode
-/// contains only this state. The function therefore computes eigenvectors of the other eight states
-/// only.
+/// Heading and position have no effect on the remaining eight states. Heading and each position therefore
+/// have a separate mode with the eigenvalue zero. The eigenvectors are computed only for the remaining eight
+/// states.
 fn modes(a: &DMatrix<f64>) -> Result<Vec<HoverMode>, HoverError> {
     /// Largest number of iterations for the eigenvalues of eight states.
     const MOST_ITERATIONS: usize = 10_000;
@@ -432,9 +456,11 @@ fn modes(a: &DMatrix<f64>) -> Result<Vec<HoverMode>, HoverError> {
     Ok(modes)
 }
 
-/// Returns the participation of each state in the mode of an eigenvalue; the sum is one.
+/// Returns the participation of each state in the mode with the given eigenvalue. The sum over all states is
+/// 1.
 ///
-/// The singular vectors of the smallest singular value of A − λ are the left and right eigenvectors.
+/// The left and right eigenvectors are computed as the singular vectors of A − λ with the smallest singular
+/// value.
 fn participation(a: &SMatrix<f64, DYNAMIC, DYNAMIC>, eigenvalue: Complex<f64>) -> Option<Vec<f64>> {
     let decomposed = (a.map(Complex::from) - SMatrix::from_diagonal_element(eigenvalue)).svd(true, true);
     let (u, v_t) = (decomposed.u?, decomposed.v_t?);
@@ -448,25 +474,29 @@ fn participation(a: &SMatrix<f64, DYNAMIC, DYNAMIC>, eigenvalue: Complex<f64>) -
 }
 
 impl HoverMode {
-    /// Returns the time (s) in which the motion grows to twice its size, or `None` if the motion does not grow.
+    /// Returns the time (s) in which the mode grows to twice its amplitude, or `None` if the mode does not
+    /// grow.
     pub fn time_to_double(&self) -> Option<f64> {
         (self.eigenvalue.re > 0.0).then(|| LN_2 / self.eigenvalue.re)
     }
 
-    /// Returns the time (s) in which the motion decays to half its size, or `None` if the motion does not decay.
+    /// Returns the time (s) in which the mode decays to half its amplitude, or `None` if the mode does not
+    /// decay.
     pub fn time_to_half(&self) -> Option<f64> {
         (self.eigenvalue.re < 0.0).then(|| -LN_2 / self.eigenvalue.re)
     }
 
-    /// Returns the period (s), or `None` if the motion does not oscillate.
+    /// Returns the period of the mode (s), or `None` if the mode does not oscillate.
     pub fn period(&self) -> Option<f64> {
         (self.eigenvalue.im != 0.0).then(|| TAU / self.eigenvalue.im.abs())
     }
 
-    /// Returns the moving states and the kind of motion, such as `pitch and forward velocity (longitudinal oscillation)`.
+    /// Returns a name of the mode that lists its motions and its kind, such as `pitch and forward velocity
+    /// (longitudinal oscillation)`.
     ///
-    /// A motion is listed if the participation of its states is at least a fifth. A real eigenvalue belongs to a
-    /// subsidence if it is negative, and to a divergence if it is positive. A mode with the eigenvalue zero is neutral.
+    /// The name lists motions whose participation is at least a fifth. A mode with a negative real eigenvalue
+    /// is called a subsidence, and with a positive real eigenvalue a divergence. A mode with the eigenvalue
+    /// zero is called neutral.
     pub fn name(&self) -> String {
         let share = |states: &[usize]| -> f64 {
             states.iter().filter_map(|&state| self.participation.get(state)).sum()
@@ -497,7 +527,7 @@ impl HoverMode {
     }
 }
 
-/// Returns names as a list in words, such as `a`, `a and b`, or `a, b and c`.
+/// Joins names to a text such as `a`, `a and b`, or `a, b and c`.
 fn listed(names: &[&str]) -> String {
     match names {
         [] => String::new(),
@@ -510,11 +540,11 @@ fn listed(names: &[&str]) -> String {
 mod tests {
     use super::*;
 
-    /// A body of 100 mg.
+    /// Mass properties of a body of 100 mg.
     const BODY: MassProperties =
         MassProperties { mass: 1e-4, inertia: [2e-9, 3e-9, 4e-9], product: 0.0, gravity: 10.0 };
 
-    /// The wrench of a body that hovers.
+    /// Mean force (N) and torque (N·m) at which the body hovers.
     const HOVER: [f64; 6] = [0.0, 0.0, 1e-3, 0.0, 0.0, 0.0];
 
     fn model(damping: &Matrix6<f64>) -> HoverModel {

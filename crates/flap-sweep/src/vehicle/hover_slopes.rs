@@ -1,7 +1,8 @@
-//! Derivatives of rows at hover.
+//! Computes the derivatives of measures with respect to parameters, for a vehicle that keeps hovering.
 //!
-//! The mean force and torque w(p, u) depend on the design p and on the inputs u. At hover, w equals the targets t(p). If
-//! the design changes, the inputs change too, so that w_p + w_u u' = t'. A measure m(p, u) therefore changes by m_p + m_u u'.
+//! The mean force and torque w(p, u) depend on a design parameter p and on the inputs u. At hover, w equals
+//! the targets t(p). If p changes, the inputs must change at the rate u' with w_p + w_u u' = t', where the
+//! indices denote partial derivatives. A measure m(p, u) therefore has the derivative m_p + m_u u'.
 
 use flap_core::simulate::{Change, Gradient, Gradients as _, NoSlope, PointRun, Unfinished};
 use flap_core::vehicle::Vehicle;
@@ -10,14 +11,16 @@ use nalgebra::{DMatrix, DVector};
 use super::control::{IDLE, Input, places};
 use super::hover::targets;
 
-/// Largest error of w_p + w_u u' = t', relative to the largest component.
+/// The equation w_p + w_u u' = t' counts as solved if its error is at most this fraction of the largest
+/// component.
 const SOLVED: f64 = 1e-6;
 
-/// Returns the derivatives of the measures of `vehicle`, followed by the derivatives of the inputs, each in the unit of
-/// the input. `run` contains the values of a vehicle that hovers with `inputs`, `state` is the state of its motion, and
-/// `changes` are changes of the design at these inputs.
+/// Returns the derivatives of the measures of `vehicle`, and then the derivatives of the inputs in their
+/// printed units. `run` contains parameter values at which the vehicle hovers. `state` is the state of the
+/// settled motion. `changes` contains the changes of parameters at constant inputs.
 ///
-/// Derivatives are missing if the inputs of hover are not unique, for example if more inputs than targets have an effect.
+/// Derivatives are missing if the inputs at hover are not unique, for example if more inputs have an effect
+/// than there are targets.
 ///
 /// # Errors
 /// Returns an error if the computation is interrupted.
@@ -64,12 +67,13 @@ pub(super) fn gradient(
     Ok(found)
 }
 
-/// Returns a derivative with respect to a change, which is zero if the change has no effect on the wings.
+/// Returns a derivative as a number. If the change has no effect on the wings, the derivative is zero.
 fn effect(slope: Result<f64, NoSlope>) -> Result<f64, NoSlope> {
     if slope == Err(NoSlope::Zero) { Ok(0.0) } else { slope }
 }
 
-/// Returns w_u, the derivatives of the targets' components with respect to relative changes of the inputs.
+/// Returns w_u, the derivatives of the upward force and the torques with respect to relative changes of the
+/// inputs.
 fn response(
     places: &[usize],
     by_inputs: &[Vec<Result<f64, NoSlope>>],
@@ -87,7 +91,8 @@ fn response(
     if is_unique { Ok(matrix) } else { Err(NoSlope::Missing) }
 }
 
-/// Returns the relative changes u' of the inputs that let the targets' components change at these rates.
+/// Returns u', the relative changes of the inputs. The linear equation for u' has the matrix `response` and
+/// the right-hand side `rates`.
 fn solve(response: &DMatrix<f64>, rates: &DVector<f64>) -> Result<DVector<f64>, NoSlope> {
     let decomposed = response.clone().svd(true, true);
     let least = IDLE * decomposed.singular_values.max();
@@ -96,9 +101,10 @@ fn solve(response: &DMatrix<f64>, rates: &DVector<f64>) -> Result<DVector<f64>, 
     if is_solved { Ok(shares) } else { Err(NoSlope::Missing) }
 }
 
-/// Returns t' − w_p, the rates of the targets' components that the inputs must cause along `change`.
+/// Returns t' − w_p, the rates at which the inputs must change the upward force and the torques when a
+/// parameter changes.
 ///
-/// `slopes` contains the derivatives at constant inputs.
+/// `slopes` contains the derivatives of the measures at constant inputs.
 fn required(
     vehicle: &Vehicle,
     values: &[f64],

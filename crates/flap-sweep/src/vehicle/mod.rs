@@ -1,4 +1,5 @@
-//! Vehicles: control matrix and trims, damping and stability of hover, flight, and rows with these numbers.
+//! Computes control matrices, trims, the damping and stability of hover, and the flight of vehicles. The
+//! module also adds hover and damping to the rows of sweeps.
 
 pub mod control;
 pub mod flight;

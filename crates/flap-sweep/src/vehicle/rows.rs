@@ -1,4 +1,4 @@
-//! Rows of vehicles at hover, and rows with the damping matrix.
+//! Computes rows of vehicles at hover, and rows that contain the damping matrix.
 
 use std::sync::Arc;
 
@@ -17,31 +17,34 @@ use super::hover::{HoverError, HoverMode, HoverModel, WRENCH_TO_SI, damping, res
 use super::hover_slopes;
 use crate::derivative::{Per, column_name, meaning};
 
-/// Units of the derivatives of a force and of a torque with respect to a velocity and to a rate.
+/// Units of the derivatives in the damping matrix. The first row contains units for forces, and the second
+/// row units for torques. The first column is for velocities, and the second column for angular rates.
 const DAMPING_UNITS: [[&str; 2]; 2] = [["mN/(m/s)", "mN/(rad/s)"], ["uN*m/(m/s)", "uN*m/(rad/s)"]];
 
 /// Number of columns between the measures of the vehicle and the inputs: growth rate, period and residual.
 const OF_HOVER: usize = 3;
 
-/// Column with the force or torque that a trim to hover does not balance.
+/// Name of the column with the largest force or torque that is not balanced at hover, as a fraction of the
+/// weight.
 pub(crate) const HOVER_RESIDUAL: &str = "hover_residual";
 
-/// A vehicle whose rows are computed at hover, or contain the damping matrix, or both.
+/// Computes the rows of a vehicle at hover, or with the damping matrix as further columns, or both.
 ///
-/// After the measures of the vehicle, a row at hover contains the growth rate and the period of the fastest-growing
-/// mode. The next measures are the residual of the trim, the values of the inputs and the damping matrix.
+/// A row begins with the measures of the vehicle. At hover, the row continues with the growth rate and the
+/// period of the fastest-growing mode. The next columns are the largest unbalanced force or torque, and the
+/// values of the inputs. The entries of the damping matrix come last.
 #[derive(Clone)]
 pub struct BodyRows {
     vehicle: Arc<Vehicle>,
-    /// Inputs that the search for hover changes; `None` if rows are computed at the given inputs.
+    /// Inputs that the search for hover changes. `None` if rows are computed without a search for hover.
     inputs: Option<Vec<Input>>,
     has_damping: bool,
     columns: Vec<Column>,
 }
 
 impl BodyRows {
-    /// Returns the rows of `vehicle` at hover, found by a trim with `inputs`; if `inputs` is `None`, the rows at the
-    /// given inputs.
+    /// Returns a source of rows for `vehicle`. If `inputs` is not `None`, a search changes these inputs until
+    /// the vehicle hovers.
     pub fn new(vehicle: Arc<Vehicle>, inputs: Option<Vec<Input>>, has_damping: bool) -> BodyRows {
         let mut columns = vehicle.columns().to_vec();
         let mut add = |name: String, unit, doc: String| {
@@ -72,10 +75,12 @@ impl BodyRows {
         BodyRows { vehicle, inputs, has_damping, columns }
     }
 
-    /// Returns the trim to hover from these values of the vehicle's parameters, if rows are computed at hover.
+    /// If rows are computed at hover, searches hover from the given parameter values, and returns the control
+    /// effectiveness at hover.
     ///
     /// # Errors
-    /// Returns an error if the mass is not set, if the body moves, or if there is no trim.
+    /// Returns an error if the mass is not set, or if the search finds no hover. A velocity or rate of the
+    /// body that is not zero is also an error.
     pub fn trim(
         &self,
         solver: &SolverSettings,
@@ -86,7 +91,7 @@ impl BodyRows {
         self.inputs.as_ref().map(|inputs| trim(&vehicle_run, values, inputs))
     }
 
-    /// Returns the row at the values of `run`, without a search for hover.
+    /// Returns the row at the parameter values of `run`, without a search for hover.
     pub fn row_at(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
         let mut row = self.vehicle.run_point(run, begin);
         if row.status == Status::Periodic {
@@ -97,7 +102,8 @@ impl BodyRows {
         row
     }
 
-    /// Returns `values` with the inputs at hover, from the measures of a row.
+    /// Returns a copy of `values` in which the inputs have their values at hover. The measures of a row
+    /// contain the values at hover.
     pub(crate) fn at_hover(&self, values: &[f64], measures: &[f64]) -> Vec<f64> {
         let mut values = values.to_vec();
         let found = measures.iter().skip(self.vehicle.columns().len() + OF_HOVER);
@@ -107,13 +113,14 @@ impl BodyRows {
         values
     }
 
-    /// Returns the derivatives of the measures of `row`, which this source computed for the values of `run`.
+    /// Returns the derivatives of the measures of `row`. The row must come from this source of rows, for the
+    /// parameter values of `run`.
     ///
-    /// At hover, the inputs change with the design, so that the vehicle keeps hovering. Derivatives of the growth rate,
-    /// the period, the residual and the damping matrix are missing.
+    /// If a parameter changes at hover, the inputs also change, so that the vehicle keeps hovering. The
+    /// growth rate, the period, the residual and the damping matrix have no derivatives.
     ///
     /// # Errors
-    /// Returns an error if the run is interrupted.
+    /// Returns an error if the computation is interrupted.
     pub fn gradient(
         &self,
         run: &PointRun<'_>,
@@ -147,7 +154,7 @@ impl BodyRows {
         Ok(found)
     }
 
-    /// Returns true if a search finds hover for each row.
+    /// Returns true if rows are computed at hover, with a search for each row.
     pub(crate) fn is_at_hover(&self) -> bool {
         self.inputs.is_some()
     }
@@ -157,7 +164,8 @@ impl BodyRows {
         self.inputs.iter().flatten().any(|input| input.parameter == parameter)
     }
 
-    /// Adds the columns of this source to the measures of a row of the vehicle at these values.
+    /// Adds the columns for hover and for the damping matrix to the measures of `row`. `values` contains the
+    /// parameter values of the row.
     fn extend(&self, vehicle_run: &VehicleRun<'_>, values: &[f64], row: &mut Row) {
         // Cells stay empty if a derivative is missing, or the moments of inertia are not set.
         let damping = damping(vehicle_run, values, &row.state).ok();
@@ -200,7 +208,7 @@ impl Rows for BodyRows {
         }
     }
 
-    /// The search for hover begins at rest, so it ignores `begin`.
+    /// Computes the row of a point. The search for hover starts from rest and ignores the state `begin`.
     fn run_point(&self, run: &PointRun<'_>, begin: Option<&[f64]>) -> Row {
         let Some(inputs) = &self.inputs else { return self.row_at(run, begin) };
         let vehicle_run =
@@ -221,7 +229,7 @@ impl Rows for BodyRows {
     }
 }
 
-/// Returns the name of the column with the value of an input at hover, such as `hover_amplitude_v`.
+/// Returns the name of the column that contains the value of an input at hover, such as `hover_amplitude_v`.
 fn input_column(input: &Input) -> String {
     let unit = input.unit.to_lowercase();
     if unit.is_empty() { format!("hover_{}", input.name) } else { format!("hover_{}_{unit}", input.name) }

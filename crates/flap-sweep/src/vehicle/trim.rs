@@ -1,4 +1,4 @@
-//! Trims of a vehicle: inputs that give a target force and torque.
+//! Searches trims of a vehicle: values of the inputs at which the vehicle has a given mean force and torque.
 
 use core::iter::successors;
 
@@ -6,48 +6,51 @@ use nalgebra::{DMatrix, DVector};
 
 use super::control::{COMPONENTS, ControlError, Effectiveness, Input, VehicleRun, own_values};
 
-/// Largest number of steps of Newton's iteration.
+/// Largest number of Newton steps in the search for a trim.
 const MOST_STEPS: usize = 40;
 
-/// Relative tolerance of a target. If the error of the motion is larger than this tolerance, the tolerance is relative
-/// to the largest component.
+/// A target is reached if the deviation from the target is at most this fraction of the target. If Newton's
+/// iteration cannot come closer, a deviation up to the numerical error of the row is also accepted.
 const TOLERANCE: f64 = 1e-6;
 
-/// Largest relative distance from a target that is accepted because of the error of the row.
+/// Largest deviation that is accepted because of the row's numerical error, as a fraction of the largest
+/// component.
 const LOOSEST: f64 = 5e-3;
 
-/// Largest change of the inputs in a step, as a multiple of the typical size of each input.
+/// In one step, an input may change by at most this fraction of its typical size.
 const LARGEST_STEP: f64 = 0.2;
 
-/// Smallest fraction of a Newton step that the search tries.
+/// If a full Newton step is not successful, the search tries shorter steps, down to this fraction of the full
+/// step.
 const SMALLEST_PART: f64 = 1e-3;
 
-/// A target value of a component.
+/// A target of a trim: the required value of one force or torque component.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Target {
-    /// Index in [`COMPONENTS`].
+    /// Index of the component in [`COMPONENTS`].
     pub component: usize,
-    /// Target value (mN or uN·m).
+    /// Required value of the component (mN or uN·m).
     pub value: f64,
 }
 
-/// Inputs that give the target force and torque.
+/// A trim: inputs at which the vehicle has the required force and torque.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trim {
-    /// Control effectiveness at the trim, with the values of the inputs.
+    /// Control effectiveness at the trim, which also contains the values of the inputs.
     pub at: Effectiveness,
-    /// Number of steps of Newton's iteration.
+    /// Number of Newton steps until the targets were reached.
     pub steps: usize,
 }
 
-/// Returns the inputs near `values` that give the `targets`, by Newton's iteration with exact derivatives.
+/// Searches inputs at which the vehicle reaches the `targets`, by Newton's iteration with exact derivatives.
+/// The search begins at the parameter values `values`.
 ///
-/// If there are more inputs than targets, each step is the smallest possible step, relative to the typical sizes of the
-/// inputs.
+/// If there are more inputs than targets, many steps lead to the targets. Of these steps, the iteration uses
+/// the shortest step, measured in typical sizes of the inputs.
 ///
 /// # Errors
-/// An error if there are fewer inputs than targets, if the initial motion is not periodic, or if the targets are not
-/// reached.
+/// An error if there are fewer inputs than targets, if the first motion is not periodic, or if the iteration
+/// does not reach the targets.
 pub fn to_targets(
     vehicle_run: &VehicleRun<'_>,
     values: &[f64],
@@ -105,19 +108,19 @@ pub fn to_targets(
     Err(ControlError::NotReached(nearest.collect::<Vec<_>>().join(", ")))
 }
 
-/// Returns the targets minus the components.
+/// Returns the required value minus the present value of each component with a target.
 fn missed_by(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
     let missed = targets.iter().map(|target| target.value - wrench[target.component]);
     DVector::from_iterator(targets.len(), missed)
 }
 
-/// Returns the largest magnitude of components and targets.
+/// Returns the largest magnitude among the six components and the target values.
 fn largest(wrench: &[f64; 6], targets: &[Target]) -> f64 {
     let targets = targets.iter().map(|target| &target.value);
     wrench.iter().chain(targets).fold(0.0, |one: f64, other| one.max(other.abs()))
 }
 
-/// Returns true if the error of each target is at most `tolerance` times the size of the target.
+/// Returns true if the deviation from each target is at most `tolerance` times the size of the target.
 fn is_met(missed: &DVector<f64>, sizes: &DVector<f64>, tolerance: f64) -> bool {
     missed.iter().zip(sizes.iter()).all(|(missed, size)| missed.abs() <= tolerance * size)
 }
