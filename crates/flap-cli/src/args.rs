@@ -58,7 +58,8 @@ pub(crate) struct Args {
     pub(crate) command: Command,
 }
 
-/// Returns the version and the build identity. Two builds of flap with the same identity write the same rows.
+/// Returns the version of flap and a hash of the sources that determine the rows. Two builds of flap with the
+/// same hash write the same rows for the same grid.
 fn long_version() -> &'static str {
     static TEXT: LazyLock<String> = LazyLock::new(|| {
         let (version, build) = (env!("CARGO_PKG_VERSION"), identity::build());
@@ -77,7 +78,7 @@ pub(crate) enum Command {
     Respond(RespondArgs),
     /// Compute the force and torque of a vehicle, the effect of each input on force and torque, and trims
     Vehicle(VehicleArgs),
-    /// Find the best design within the axes of a grid file, under conditions on measures
+    /// Find the best design within the ranges of a grid file's axes, under conditions on measures
     Optimise(OptimiseArgs),
     /// Open a page with sliders for the parameters, and curves that change with the sliders
     #[cfg(feature = "live")]
@@ -107,7 +108,7 @@ pub(crate) enum Command {
     Generate(GenerateCommand),
 }
 
-/// Titles of the groups of commands in `flap --help`, with their commands.
+/// The groups of commands in `flap --help`, each with a title and the names of its commands.
 const GROUPS: [(&str, &[&str]); 4] = [
     ("Compute", &["sweep", "run", "respond", "vehicle", "optimise", "live", "check"]),
     ("Results", &["top", "describe", "plot", "results"]),
@@ -129,7 +130,7 @@ Exit codes:
 
 static LINE: OnceLock<Vec<OsString>> = OnceLock::new();
 
-/// Sets the words of the command line. Only the first call has an effect.
+/// Stores the words of the command line. Only the first call has an effect.
 pub(crate) fn set_line(line: Vec<OsString>) {
     LINE.get_or_init(|| line);
 }
@@ -145,7 +146,8 @@ pub(crate) fn parse() -> Args {
     Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
 }
 
-/// Adds a hint to the error for an unknown command whose name is a command of a group, such as `merge` of `flap results`.
+/// Adds a hint to the error for an unknown command if a group contains a command with this name. For example,
+/// the hint for `flap merge` is to use `flap results merge`.
 fn with_hint(mut error: clap::Error) -> clap::Error {
     let Some(ContextValue::String(name)) = error.get(ContextKind::InvalidSubcommand) else { return error };
     let command = Args::command();
@@ -157,7 +159,8 @@ fn with_hint(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Builds the command line, with groups of commands and an example at the top of each command's help.
+/// Builds the clap command of `flap`. Its help lists the commands in groups, and the help of each command has
+/// an example at the top.
 pub(crate) fn command() -> clap::Command {
     let mut command = Args::command();
     // Adds the command `help`, which the groups list.
@@ -169,7 +172,7 @@ pub(crate) fn command() -> clap::Command {
     Args::command().help_template(template).mut_subcommands(with_example)
 }
 
-/// Returns the groups of commands with the first line of each command's help.
+/// Returns the list of commands for `flap --help`, in groups, with the first line of each command's help.
 fn groups(command: &clap::Command) -> String {
     let mut text = String::new();
     for (title, names) in GROUPS {

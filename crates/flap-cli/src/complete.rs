@@ -1,8 +1,8 @@
-//! Completion in a shell: the shell runs the command with the words of the incomplete command line. The command prints
-//! candidates for the last word.
+//! Completion in a shell. When the user requests completion, the shell runs `flap` with the words of the
+//! incomplete command line, and `flap` prints candidates for the last word.
 //!
-//! A script cannot contain the candidates, because the candidates include added models and the columns of files in the
-//! working directory.
+//! A completion script cannot contain the candidates, because they include the columns of files in the
+//! working directory and the additional models of other programs.
 
 use std::ffi::OsStr;
 use std::path::Path;
@@ -38,8 +38,8 @@ pub(crate) fn answer() {
     }
 }
 
-/// Returns the command line, in which each argument has candidates. The name of an argument's value determines the
-/// candidates.
+/// Returns the clap command of `flap` with completion candidates for its arguments. The value name of an
+/// argument, such as `COLUMN`, determines its candidates.
 fn command() -> Command {
     with_candidates(args::command())
 }
@@ -48,7 +48,7 @@ fn with_candidates(command: Command) -> Command {
     command.mut_args(completed).mut_subcommands(with_candidates)
 }
 
-/// Returns the argument with its candidates.
+/// Adds the completion candidates to an argument.
 fn completed(arg: Arg) -> Arg {
     let value = arg.get_value_names().and_then(|names| names.first()).map(ToString::to_string);
     match value.as_deref().unwrap_or_default() {
@@ -102,7 +102,8 @@ fn parameters() -> Vec<CompletionCandidate> {
     each_parameter(|parameter| vec![candidate(parameter.name, parameter.doc)])
 }
 
-/// Returns parameters before an equals sign, and options of a choice after the equals sign.
+/// Returns candidates for `NAME=VALUE`: parameters before the equals sign, and the named options of a
+/// parameter after the equals sign.
 fn assignments(word: &OsStr) -> Vec<CompletionCandidate> {
     let is_named = word.to_string_lossy().contains('=');
     let candidates = each_parameter(|parameter| match parameter.kind {
@@ -119,7 +120,7 @@ fn each_parameter(candidates: impl Fn(&Parameter) -> Vec<CompletionCandidate>) -
     distinct(robots.iter().flat_map(|robot| robot.parameters()).flat_map(candidates))
 }
 
-/// Returns the columns of the first result file on the command line.
+/// Returns the names of the columns in the first result file on the command line.
 ///
 /// If the command line contains no result file, returns the columns of a sweep with the mentioned models.
 fn columns() -> Vec<CompletionCandidate> {
@@ -150,7 +151,8 @@ fn begun(word: &OsStr, mut candidates: Vec<CompletionCandidate>) -> Vec<Completi
     candidates
 }
 
-/// Returns the candidates without repeated names. The first candidate with a name is kept.
+/// Returns the candidates without repeated names. If several candidates have the same name, the function
+/// keeps the first.
 fn distinct(candidates: impl Iterator<Item = CompletionCandidate>) -> Vec<CompletionCandidate> {
     let mut kept: Vec<CompletionCandidate> = Vec::new();
     for candidate in candidates {
@@ -161,7 +163,7 @@ fn distinct(candidates: impl Iterator<Item = CompletionCandidate>) -> Vec<Comple
     kept
 }
 
-/// Returns the words of the command line that is completed, after the name of the command.
+/// Returns the words that the user typed after `flap` on the command line that the shell completes.
 fn words() -> impl Iterator<Item = String> {
     let words = args::line().iter().map(|word| word.to_string_lossy().into_owned());
     words.skip_while(|word| word != "--").skip(2)
@@ -183,8 +185,8 @@ fn robot_of_grid(word: &str) -> Option<Robot> {
     is_grid.then(|| grid::read(path, models::all()).ok().map(|plan| plan.robot().clone())).flatten()
 }
 
-/// Returns the columns of results, if the word is the name of a results file. Only the header is read, because the
-/// shell waits.
+/// Returns the columns of results, if the word is the name of a results file. The function reads only the
+/// header of the file, because the shell waits for the candidates.
 fn columns_of(word: &str) -> Option<Vec<String>> {
     let path = Path::new(word);
     let is_results = path.is_file() && path.extension().is_none_or(|ending| ending != "toml");

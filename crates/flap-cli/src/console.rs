@@ -14,15 +14,16 @@ pub(crate) fn be_quiet() {
     QUIET.store(true, Ordering::Relaxed);
 }
 
-/// Returns true if notes and progress are switched off.
+/// Returns true if the option `--quiet` has switched off notes and progress.
 pub(crate) fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
 }
 
-/// Returns the number of characters in a line of stdout: the width of the terminal, or the value of the variable
-/// COLUMNS without a terminal.
+/// Returns the largest number of characters in a line of stdout. This is the width of the terminal or,
+/// without a terminal, the environment variable COLUMNS.
 ///
-/// The result is `None` if there is neither a terminal nor COLUMNS, for example in a pipe. Lines may then have any length.
+/// The result is `None` if there is neither a terminal nor COLUMNS, for example in a pipe. If the result is
+/// `None`, lines may have any length.
 pub(crate) fn width() -> Option<usize> {
     let terminal = terminal_size::terminal_size_of(io::stdout()).map(|(width, _)| usize::from(width.0));
     terminal.or_else(|| env::var("COLUMNS").ok()?.parse().ok()).filter(|width| *width > 0)
@@ -30,7 +31,8 @@ pub(crate) fn width() -> Option<usize> {
 
 /// Returns true for `-` and `/dev/stdout`, the names of stdout.
 ///
-/// If the shell redirects stdout to a file, `/dev/stdout` leads to this file, which the shell has opened.
+/// If the shell redirects stdout to a file, `/dev/stdout` is a link to this file, which the shell has already
+/// opened.
 pub(crate) fn is_stdout(path: &Path) -> bool {
     path.as_os_str() == "-" || (cfg!(unix) && path == Path::new("/dev/stdout"))
 }
@@ -57,7 +59,8 @@ pub(crate) fn help_lines(text: &str) -> String {
     textwrap::wrap(text, width).join(&format!("\n{MARGIN}"))
 }
 
-/// Returns a word that a user can copy into a shell: in quotes if the word has characters that shells interpret.
+/// Returns a word in a form that a user can copy into a shell. The word is in quotes if it contains
+/// characters that shells interpret.
 pub(crate) fn shell_word(word: &str) -> String {
     let is_plain = |letter: char| letter.is_alphanumeric() || "._-/+=:,".contains(letter);
     if !word.is_empty() && word.chars().all(is_plain) {
@@ -76,7 +79,7 @@ pub(crate) fn say(text: &str) {
 
 /// Prints a warning or an error to stderr. If stderr is closed, the printed line is lost.
 ///
-/// The line and its end are written together, so that no other process can write between them.
+/// The text and its line break are written in one call, so that no other process can write between them.
 pub(crate) fn complain(text: &str) {
     let _ = anstream::stderr().write_all(format!("{text}\n").as_bytes());
 }

@@ -3,12 +3,13 @@
 const UNITS: [(f64, &str); 5] =
     [(31_557_600.0, "years"), (86_400.0, "days"), (3600.0, "hours"), (60.0, "minutes"), (1.0, "seconds")];
 
-/// Returns a time in the largest unit in which the number is at least two: `7 minutes`.
+/// Returns a time as text, such as `7 minutes`, in the largest unit in which the number is at least two.
 pub(crate) fn words(seconds: f64) -> String {
     between(seconds, seconds)
 }
 
-/// Returns a range of times: `6 to 8 minutes`, or `7 minutes` if both ends round to the same number.
+/// Returns a range of times as text, such as `6 to 8 minutes`, or `7 minutes` if both ends round to the same
+/// number.
 pub(crate) fn between(low: f64, high: f64) -> String {
     let Some((length, name)) = UNITS.iter().find(|(length, _)| high >= 2.0 * length) else {
         return "a second or two".to_owned();

@@ -33,8 +33,9 @@ pub(crate) const IGNORE_HELP: &str = "--ignore-damage uses the rows that can be 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Exit {
     Done = 0,
-    /// Done, but with `--strict` some points are not periodic, `flap results verify` could not verify some results, or no design
-    /// satisfies the conditions of `flap optimise`.
+    /// The command finished without an error, but not everything succeeded. Some points are not periodic
+    /// (with `--strict`), some results could not be verified, or no design satisfies the conditions of `flap
+    /// optimise`.
     NotAll = 1,
     Usage = 2,
     System = 3,
@@ -45,17 +46,18 @@ pub(crate) enum Exit {
 /// The reason why a command failed.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command line or the grid file has a mistake. Contains a message and help lines.
+    /// The command line or the grid file has a mistake. The fields are the message and the help lines.
     Usage(String, Vec<String>),
     /// The grid file has mistakes.
     Grid(Mistakes),
-    /// The operating system returned an error, or results are damaged. Contains a message and help lines.
+    /// The operating system returned an error, or results are damaged. The fields are the message and the
+    /// help lines.
     System(String, Vec<String>),
     /// An internal error in flap.
     Bug(String),
     /// A signal stopped the command before there was a result.
     Interrupted,
-    /// The program that reads stdout closed it, as `head` does. A closed stdout is not an error.
+    /// The program that reads stdout, such as `head`, closed stdout. A closed stdout is not an error.
     ClosedPipe,
 }
 
@@ -65,7 +67,7 @@ impl Failure {
         Failure::Usage(message.into(), Vec::new())
     }
 
-    /// Returns the failure for an operation of the operating system that failed, and for damaged results.
+    /// Returns the failure for an operation that the operating system rejected, or for damaged results.
     pub(crate) fn system(message: impl Into<String>) -> Failure {
         Failure::System(message.into(), Vec::new())
     }
@@ -80,7 +82,7 @@ impl Failure {
         Failure::system(format!("cannot write {}: {error}", path.display()))
     }
 
-    /// Returns the failure for results that another program has changed.
+    /// Returns the failure for a damaged file, for example results that another program has changed.
     pub(crate) fn damaged(message: String) -> Failure {
         Failure::system(message).help("replace the file by an undamaged copy")
     }
@@ -99,7 +101,7 @@ impl Failure {
         Err(Failure::usage(message).help(format!("`flap sweep {name}` writes its results")))
     }
 
-    /// Returns the failure of a job with results at `out`.
+    /// Converts the error of a job that writes results to `out` into a failure.
     pub(crate) fn of_job(error: JobError, out: &Path) -> Failure {
         let resumable =
             matches!(error, JobError::Write { resumable: true, .. } | JobError::Run { resumable: true, .. });
@@ -141,8 +143,8 @@ impl Failure {
         lines.into_iter().fold(self, Failure::help)
     }
 
-    /// Adds a question with the name among `names` that is closest to `name`. If no name is close, adds the line
-    /// `otherwise`.
+    /// Adds the help line "did you mean ...?" with the name in `names` that is most similar to `name`. If no
+    /// name is similar, adds the help line `otherwise`.
     pub(crate) fn nearest<'n>(
         self,
         name: &str,
@@ -183,7 +185,7 @@ impl Failure {
     }
 }
 
-/// Adds the first edited line of the grid, if a line was edited.
+/// If the user edited the grid file, adds a help line with the first edited line of the file.
 fn edited(failure: Failure, changed: Option<&String>) -> Failure {
     let Some(line) = changed else { return failure };
     failure
@@ -191,9 +193,10 @@ fn edited(failure: Failure, changed: Option<&String>) -> Failure {
         .help("an edited grid is another sweep: write its rows to another file with --out FILE")
 }
 
-/// Adds help lines for unfinished results at `out`. The help line about a loss of rows is last.
+/// Adds help lines for unfinished results at `out`. The last help line is about `--restart`, which deletes
+/// rows.
 ///
-/// If `continues` is true, `flap results resume` is one of the options.
+/// If `continues` is true, a help line suggests `flap results resume`.
 fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues: bool) -> Failure {
     let grid = if changed.is_some() { " with its original grid" } else { "" };
     let resume = || format!("`flap results resume {}` continues the run{grid}", out.display());
@@ -201,7 +204,7 @@ fn unfinished(failure: Failure, out: &Path, changed: Option<&String>, continues:
         .help("use --restart to delete the rows of this file and start over")
 }
 
-/// Returns the help line if new results will replace earlier results; `None` if there are no earlier results.
+/// Returns a help line if `out` contains earlier results that the new results will replace, otherwise `None`.
 pub(crate) fn still_kept(out: &Path) -> Option<String> {
     let is_kept = job::unfinished(out).is_some() && out.exists();
     is_kept
@@ -228,7 +231,8 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// Errors that the user can correct and whose messages contain the remedy.
+/// Converts errors of the given types into failures of the kind `Usage`. The user can correct such errors,
+/// and their messages contain the remedy.
 macro_rules! usage {
     ($($error:ty),*) => {
         $(impl From<$error> for Failure {

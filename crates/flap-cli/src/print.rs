@@ -13,7 +13,8 @@ use crate::console;
 use crate::failure::Failure;
 use crate::table::{Table, six_digits};
 
-/// Prints `page`, or the rows with all digits below a line with the column names.
+/// Prints a table in the given format. For the format `table`, `page` creates the text. For csv and json,
+/// `rows` contain the cells with all digits.
 pub(crate) fn table(
     format: OutputFormat,
     names: &[impl AsRef<str>],
@@ -72,7 +73,8 @@ fn objects(names: &[impl AsRef<str>], rows: &[Vec<String>]) -> Result<String, Fa
     Ok(format!("[\n{}\n]\n", objects.join(",\n")))
 }
 
-/// Returns a cell as JSON: null for an empty or infinite cell. Text such as `007` is no number.
+/// Returns a cell as JSON: null for an empty or infinite cell. Text such as `007` stays text, because JSON
+/// has no numbers of this form.
 fn json(cell: &str) -> Value {
     match cell {
         "" | "inf" | "-inf" | "NaN" => Value::Null,
@@ -88,13 +90,15 @@ fn json(cell: &str) -> Value {
     }
 }
 
-/// A motion with columns, each with one value, that distinguish it from other motions.
+/// A motion, and the names and values of the key columns that distinguish this motion from other motions in
+/// the same table.
 pub(crate) struct Keyed<'m> {
     pub(crate) keys: &'m [(String, String)],
     pub(crate) motion: &'m Trajectory,
 }
 
-/// Writes motions with the same keys into one CSV table, one after another, with the columns that all motions have.
+/// Writes several motions into one CSV table, one below the other. All motions must have the same key
+/// columns, and only columns that all motions have are written.
 pub(crate) fn write_motions(motions: &[Keyed<'_>], target: impl Write) -> io::Result<()> {
     let Some(first) = motions.first() else { return Ok(()) };
     let has_all = |name: &&String| motions.iter().all(|other| other.motion.columns.contains(name));

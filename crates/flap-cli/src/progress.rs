@@ -12,17 +12,17 @@ use crate::{console, duration};
 /// The progress of a run.
 pub(crate) struct Bar {
     drawn: ProgressBar,
-    /// Progress as lines of text, if no bar is shown.
+    /// Progress that is printed as lines of text, if stderr is not a terminal.
     log: Option<Log>,
-    /// The units of the run, such as "points".
+    /// The word for the items that the run counts, such as "points".
     units: &'static str,
     moved: bool,
     stopping: bool,
 }
 
 impl Bar {
-    /// Returns the progress of a run that counts `units`, such as "points"; the progress prints nothing if it is
-    /// switched off.
+    /// Returns the progress of a run that counts `units`, such as "points". If the user gave `--quiet`, no
+    /// progress is printed.
     pub(crate) fn new(units: &'static str) -> Bar {
         let template =
             format!("{{wide_bar}} {{human_pos}} of {{human_len}} {units}, {{rate}} {units}/s, {{eta}} left");
@@ -36,7 +36,7 @@ impl Bar {
         Bar { drawn, log, units, moved: false, stopping: false }
     }
 
-    /// Moves the progress bar. When the sweep begins to stop, prints a note once.
+    /// Moves the progress bar. At the first call with `stopping`, prints a note that the run stops.
     pub(crate) fn show(&mut self, progress: Progress, stopping: bool) {
         self.drawn.set_length(progress.points);
         self.drawn.set_position(progress.finished);
@@ -76,7 +76,8 @@ const PAUSE: Duration = Duration::from_secs(60);
 /// Progress that is printed as lines of text.
 struct Log {
     last: Instant,
-    /// Time and number of finished units at the beginning. Units of earlier sessions were not computed in this session.
+    /// Time and number of finished points or curves at the first call of [`Log::line`]. The points of an
+    /// earlier, interrupted run do not count for the rate of this run.
     begin: Option<(Instant, u64)>,
 }
 
@@ -85,7 +86,8 @@ impl Log {
         Log { last: now, begin: None }
     }
 
-    /// Returns the next line of progress, if the time since the last line is long enough.
+    /// Returns a line of progress, if the last line was printed a minute ago or earlier and the run is not
+    /// finished.
     fn line(&mut self, progress: Progress, units: &str, now: Instant) -> Option<String> {
         let Progress { finished, points } = progress;
         let (begun, before) = *self.begin.get_or_insert((now, finished));

@@ -2,7 +2,7 @@
 
 use flap_core::simulate::Status;
 
-/// Returns the meaning of a status in one line, with advice.
+/// Returns the meaning of a row's status as one line of text, with advice.
 pub(crate) fn meaning(status: Status) -> &'static str {
     match status {
         Status::Periodic => "the motion has settled on an orbit of one drive period; the row has measures",

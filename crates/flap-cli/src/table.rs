@@ -25,23 +25,24 @@ pub(crate) fn assignment(parameter: &Parameter, value: f64) -> String {
     format!("{} = {}", parameter.name, text::shown(parameter, value))
 }
 
-/// Rows of cells, aligned on the left. A row may have fewer cells than other rows.
+/// A table of text whose columns are aligned on the left. Rows may have different numbers of cells.
 ///
-/// Words of more than about a hundred characters are shortened, because names in files may have any length.
+/// Words of more than 300 characters are shortened, because names in files may have any length.
 #[derive(Default)]
 pub(crate) struct Table {
     rows: Vec<Vec<String>>,
-    /// Titles of groups, each with the number of rows above it.
+    /// Titles of groups of rows, each with the number of rows above the title.
     titles: Vec<(usize, String)>,
-    /// Number of first columns that every part of a wide table repeats; 0 counts as 1.
+    /// A table that is too wide is split into parts, and each part begins with this number of first columns.
+    /// The number 0 means 1.
     keys: usize,
 }
 
-/// Smallest width of a column whose cells are wrapped.
+/// Smallest width, in characters, to which the cells of a column are wrapped.
 const LEAST: usize = 20;
 
 impl Table {
-    /// Returns a table with a first row of headings.
+    /// Returns a table whose first row contains the headings in capital letters.
     pub(crate) fn with_headings(headings: &[&str]) -> Table {
         Table::with_names(headings.iter().map(|heading| heading.to_uppercase()).collect())
     }
@@ -55,14 +56,15 @@ impl Table {
         table
     }
 
-    /// Returns a table with a first row of column names, which are printed unchanged.
+    /// Returns a table whose first row contains the given column names, unchanged.
     pub(crate) fn with_names(names: Vec<String>) -> Table {
         let mut table = Table::default();
         table.row(names);
         table
     }
 
-    /// Sets the number of first columns that every part repeats if the table is too wide.
+    /// Sets the number of first columns with which each part of a split table begins. A table is split if it
+    /// is too wide.
     pub(crate) fn with_keys(self, keys: usize) -> Table {
         Table { keys, ..self }
     }
@@ -76,16 +78,17 @@ impl Table {
         self.rows.push(cells.into().into_iter().map(shorten).collect());
     }
 
-    /// Adds a title above the rows that follow.
+    /// Adds a title above the rows that are added later.
     pub(crate) fn title(&mut self, title: &str) {
         self.titles.push((self.rows.len(), title.to_owned()));
     }
 
-    /// Returns the text, with two blanks between columns: one line per row or, with a `width`, lines of at most `width` characters.
+    /// Returns the table as text, with two blanks between columns. Without a `width`, each row is one line.
+    /// With a `width`, lines have at most `width` characters.
     ///
-    /// With a `width`, the cells of the last column are wrapped. If the columns still do not fit, the columns are split
-    /// into several tables, from top to bottom. Each part of a split table has the first column, or the columns of
-    /// [`Table::with_keys`].
+    /// With a `width`, the cells of the last column are wrapped. If the columns still do not fit, the columns
+    /// are split into several tables, from top to bottom. Each part of a split table begins with the first
+    /// column, or with the number of columns that [`Table::with_keys`] sets.
     pub(crate) fn text_within(&self, width: Option<usize>) -> String {
         let widths = self.widths();
         let parts = width.map_or_else(Vec::new, |width| parts(&widths, self.keys.max(1), width));
@@ -113,7 +116,7 @@ impl Table {
             .collect()
     }
 
-    /// Returns the table with the first columns and the given columns.
+    /// Returns a part of a split table: the first columns, which all parts repeat, and the given columns.
     fn part(&self, columns: Range<usize>) -> Table {
         let cells = |row: &Vec<String>| {
             let rest = row.iter().skip(columns.start).take(columns.len());
@@ -122,7 +125,7 @@ impl Table {
         Table { rows: self.rows.iter().map(cells).collect(), titles: self.titles.clone(), keys: self.keys }
     }
 
-    /// Returns the whole table, with the cells of its last column wrapped.
+    /// Returns the table as text without splitting the table. The cells of the last column are wrapped.
     fn whole_within(&self, widths: &[usize], width: Option<usize>) -> String {
         let columns = widths.len();
         let indent: usize = widths.iter().take(columns.saturating_sub(1)).map(|width| width + 2).sum();
@@ -148,7 +151,8 @@ impl Table {
     }
 }
 
-/// Splits the columns after the first `keys` into tables that fit into `width`. The last column may be wrapped to [`LEAST`].
+/// Divides the columns after the first `keys` columns into groups, so that the first columns and a group fit
+/// into `width`. The last column may be wrapped to [`LEAST`] characters.
 fn parts(widths: &[usize], keys: usize, width: usize) -> Vec<Range<usize>> {
     let mut parts: Vec<Range<usize>> = Vec::new();
     let first: usize = widths.iter().take(keys).map(|width| width + 2).sum();
@@ -166,7 +170,8 @@ fn parts(widths: &[usize], keys: usize, width: usize) -> Vec<Range<usize>> {
     parts
 }
 
-/// Returns the text in lines that fit the terminal; all lines after the first are indented by `indent` blanks.
+/// Returns the text in lines that fit the terminal. All lines after the first line are indented by `indent`
+/// blanks.
 pub(crate) fn wrapped(text: &str, indent: usize) -> String {
     let blanks = " ".repeat(indent);
     console::width().map_or_else(

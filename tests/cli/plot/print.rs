@@ -81,8 +81,11 @@ fn sizes_in_print_have_limits() {
             &["--size", "600x600mm", "--dpi", "1200"],
             "a picture of 28346 x 28346 pixels with text of 8 pt is too large",
         ),
-        (&["--font-size", "8"], "--font-size requires a --size in mm, cm or in"),
-        (&["--size", "900x560", "--dpi", "300"], "--dpi requires a --size in mm, cm or in"),
+        (&["--font-size", "8"], "--font-size requires a --size with a unit of length: mm, cm or in (inch)"),
+        (
+            &["--size", "900x560", "--dpi", "300"],
+            "--dpi requires a --size with a unit of length: mm, cm or in (inch)",
+        ),
         (&["--size", "84mm"], "expected WxH with a unit of length"),
         (&["--out", "out.pdf"], "rsvg-convert"),
     ] {

@@ -23,7 +23,8 @@ pub(crate) enum DeviceCommand {
     after_help = "Examples:\n  flap device new jafferis2016 > mybee.toml\n  flap run mybee.toml\n  flap device new mybee.toml > copy.toml"
 )]
 pub(crate) struct NewArgs {
-    /// Preset, device file or grid file whose values flap prints: values before the axes of a grid file are applied
+    /// Preset, device file or grid file whose parameter values flap prints; flap leaves out the axes of a
+    /// grid file
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 }
@@ -37,8 +38,8 @@ pub(crate) struct WingArgs {
     #[arg(value_name = "OUTLINE")]
     pub(crate) outline: PathBuf,
 
-    /// Preset, device file or grid file to which flap adds the wing; the model of the design determines which
-    /// parameters flap computes
+    /// Preset, device file or grid file of the robot to which flap adds the wing; the robot's model
+    /// determines which parameters flap computes
     #[arg(long, value_name = "PRESET|FILE")]
     pub(crate) preset: String,
 
@@ -67,9 +68,9 @@ pub(crate) struct WingArgs {
 }
 
 const WING_HELP: &str = "\
-The edges in the file are distances from the axis of the hinge. The leading edge lies ahead of the axis, and the \
-trailing edge lies behind the axis. Between two rows of the file, the edges of the wing are straight. Some parameters \
-must change together with the wing: see the manual, How to, Wings.
+In the file, the edges of the wing are given by their distances from the axis of the hinge. The leading edge lies \
+ahead of the axis, and the trailing edge lies behind the axis. Between two rows of the file, the edges of the wing are \
+straight. Some parameters must change together with the wing: see the manual, How to, Wings.
 
 Examples:
   flap device wing outline.csv --preset jafferis2016 --offset '2 mm' --mass '0.6 mg' > wing.toml

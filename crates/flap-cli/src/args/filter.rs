@@ -5,7 +5,7 @@ use flap_sweep::notation::expression::is_free_name;
 /// A condition on rows. Rows that do not satisfy the condition are left out.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Filter {
-    /// A column, by its name, and the value that the column must have.
+    /// The name of a column, and the value that a row must have in this column.
     Equal(String, String),
     /// A comparison of columns and numbers, such as `lift_mean_mn > 1`.
     Comparison(String),

@@ -18,7 +18,7 @@ pub(crate) struct TopArgs {
     #[arg(short = 'n', long, value_name = "N", default_value = "10", value_parser = values::rows)]
     pub(crate) rows: NonZeroUsize,
 
-    /// Further columns to list, separated by commas
+    /// Additional columns to list, separated by commas
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) columns: Vec<String>,
 
@@ -28,10 +28,10 @@ pub(crate) struct TopArgs {
 
 const TOP_HELP: &str = "\
 For each of the best rows, flap lists the varied and derived parameters, the ranking column, and the status. The table \
-shows numbers with six digits and units with prefixes; csv and json contain the cells of FILE. Rows whose ranking \
-column is empty are left out. Rows with equal values in the ranking column keep the order of FILE. If the best row is \
-at the end of an axis, flap prints a note: rows beyond the end of the axis could be better. If FILE is unfinished, \
-flap ranks the rows up to the last checkpoint.
+shows numbers with six digits and units with prefixes; csv and json contain the cells exactly as in FILE. Rows whose \
+ranking column is empty are left out. Rows with equal values in the ranking column are listed in the order of FILE. If \
+the best row is at the end of an axis, flap prints a note, because points beyond this end could be better. If FILE is \
+unfinished, flap ranks the rows up to the last checkpoint.
 
 Examples:
   flap top sweep.csv --by efficiency_gf_per_w
@@ -61,12 +61,11 @@ pub(crate) struct DescribeArgs {
 const DESCRIBE_HELP: &str = "\
 flap prints three kinds of tables. The first table has the number of rows with each status. For each measure, the \
 second table has the mean, the standard deviation, the smallest value, the 5th, 50th and 95th percentile and the \
-largest value; csv and json also have the standard error of the mean. A table of the third kind is for one measure of \
---by, and shows the best value of each axis. For each axis, the table has the axis value of the best row, and the \
-range of axis values in the best tenth of the rows. If the best tenth of the rows has a wide range of an axis, this \
-axis has little influence on the measure. `at the end` means that the best value is at an end of the axis: a wider \
-axis could contain better designs. An axis is a varied parameter. In results of `flap respond`, the branch is also an \
-axis.
+largest value; csv and json also have the standard error of the mean. For each measure of --by, one more table shows \
+the best values of the axes. For each axis, this table has the value in the best row, and the range of values in the \
+best tenth of the rows. If the best tenth of the rows has a wide range of values of an axis, this axis has little \
+influence on the measure. `at the end` means that the best value is at an end of the axis: a wider axis could contain \
+better designs. An axis is a varied parameter. In results of `flap respond`, the branch is also an axis.
 
 Examples:
   flap describe sweep.csv
@@ -80,16 +79,16 @@ pub(crate) struct LookArgs {
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
-    /// Better direction of the measure: larger or smaller values [default: min for power, current, strain, field,
-    /// drag, force_1, force_2 and hover_growth_1_s, otherwise max]
+    /// Direction in which the measure is better: larger or smaller values [default: min for power, current,
+    /// strain, field, drag, force_1, force_2 and hover_growth_1_s, otherwise max]
     #[arg(long, value_enum)]
     pub(crate) aim: Option<Aim>,
 
     /// Use only the rows that satisfy the condition. You can repeat --where
     ///
-    /// In COLUMN=VALUE, VALUE is a number in the unit of the column, a number with another unit, or a text. A comparison may have
-    /// several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. Text in a comparison is in
-    /// quotes: "device == 'long'".
+    /// In COLUMN=VALUE, VALUE is a number in the unit of the column, a number with another unit, or a text. A
+    /// comparison may have several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. Put text
+    /// in a comparison in quotes: "device == 'long'".
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 

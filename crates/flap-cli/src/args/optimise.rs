@@ -12,7 +12,7 @@ use super::values::{rows, threads};
 #[derive(clap::Args)]
 #[command(after_help = OPTIMISE_HELP, group = ArgGroup::new("goal").required(true).multiple(true))]
 pub(crate) struct OptimiseArgs {
-    /// Grid file whose axes contain the bounds of the search; `-` reads a grid from stdin
+    /// Grid file whose axes are the ranges of the search; `-` reads a grid from stdin
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 
@@ -31,7 +31,8 @@ pub(crate) struct OptimiseArgs {
     #[arg(long = "where", value_name = "COMPARISON")]
     pub(crate) conditions: Vec<String>,
 
-    /// Compute a Pareto front of two goals with at most N designs, each the best for a limit on the other goal
+    /// Compute a Pareto front of both goals with at most N designs; each design is the best under a limit on
+    /// one of the goals
     ///
     /// --points requires both --maximise and --minimise
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=10_000), conflicts_with = "out")]
@@ -65,25 +66,26 @@ pub(crate) struct OptimiseArgs {
     pub(crate) solver: SolverArgs,
 }
 
-/// A number of starts from 1 to 10 000.
+/// Parses a number of searches from 1 to 10 000.
 fn starts(text: &str) -> Result<usize, String> {
     let number = rows(text).ok().map(NonZeroUsize::get).filter(|number| *number <= 10_000);
     number.ok_or_else(|| "expected a whole number from 1 to 10000".to_owned())
 }
 
 const OPTIMISE_HELP: &str = "\
-flap first computes the points of the grid. The search then improves the best points step by step, with the derivatives \
-of the measures. The search may choose any value between the smallest and the largest value of an axis. Options, whole \
-numbers and parameters that change together can have only the values of the grid. Every motion begins at rest, as in a sweep.
+flap first computes the points of the grid. The search then improves the best points step by step, with the \
+derivatives of the measures. The search may choose any value between the smallest and the largest value of an axis. \
+Parameters with named options, whole numbers, and parameters that change together can have only the values of the \
+grid. Every motion begins at rest, as in a sweep.
 
-The status is `optimal` if the derivatives confirm that no small change of the design is better. Differences of rows \
-replace missing derivatives. The status is `approximate` if the derivatives do not confirm that the design is optimal. The status is `infeasible` if \
-no design satisfies all conditions: flap then prints the design with the smallest violation of the conditions, and the \
-exit code is 1.
+The status is `optimal` if the derivatives confirm that no small change of the design is better. If a derivative is \
+missing, flap uses the difference of two rows instead. The status is `approximate` if the derivatives do not confirm \
+that the design is optimal. The status is `infeasible` if no design satisfies all conditions: flap then prints the \
+design with the smallest violation of the conditions, and the exit code is 1.
 
-With --points, each row is one design of the Pareto front: the best value of one goal under a limit on the other goal. \
-The front has fewer than N designs if one design is the best for several limits. \
-With `--format csv`, rows contain all measures, so that `flap plot` can draw the rows.
+With --points, each row is one design of the Pareto front. This design has the best value of one goal under a limit on \
+the other goal. The front has fewer than N designs if one design is the best for several limits. With `--format csv`, \
+rows contain all measures, so that `flap plot` can draw the rows.
 
 Examples:
   flap optimise grid.toml --maximise vehicle_lift_mgf --where 'stroke_pp_deg < 100 deg' --where 'strain_surface_max < 0.08 %'

@@ -28,17 +28,18 @@ pub(crate) struct PointArgs {
 /// Option that changes parameters of designs.
 #[derive(Clone, PartialEq, clap::Args)]
 pub(crate) struct ChangeArgs {
-    /// Set a parameter: to a number in SI units, a number with a unit, or the name of an option. You can repeat --set
+    /// Set a parameter to a number in SI units, to a number with a unit, or to one of its named options. You
+    /// can repeat --set
     #[arg(short, long, value_name = "NAME=VALUE", value_parser = assignment)]
     pub(crate) set: Vec<(String, String)>,
 
-    /// Parameters of --each, with one value per parameter
+    /// Parameters that `--each` varies, with the value of each parameter in one design.
     #[arg(skip)]
     pub(crate) each: Vec<(String, String)>,
 }
 
 impl ChangeArgs {
-    /// Returns the option, the parameter and the value of each change.
+    /// Returns the command-line option, the parameter and the value of each change.
     pub(crate) fn all(&self) -> impl Iterator<Item = (&'static str, &str, &str)> {
         let set = self.set.iter().map(|(name, value)| ("--set", name.as_str(), value.as_str()));
         set.chain(self.each.iter().map(|(name, value)| ("--each", name.as_str(), value.as_str())))
@@ -92,7 +93,7 @@ pub(crate) struct OverwriteArgs {
     pub(crate) force: bool,
 }
 
-/// Options of commands that start or continue results.
+/// Options of commands that write a new file of results or continue an unfinished file.
 #[derive(clap::Args)]
 pub(crate) struct BeginArgs {
     /// Compute all rows again, and replace existing results when the new results are complete
@@ -106,7 +107,7 @@ pub(crate) struct BeginArgs {
 }
 
 impl BeginArgs {
-    /// Returns the treatment of existing results.
+    /// Returns `Restart` if the user gave `--restart`, otherwise `Continue`.
     pub(crate) fn on_existing(&self) -> OnExisting {
         if self.restart { OnExisting::Restart } else { OnExisting::Continue }
     }
@@ -133,8 +134,7 @@ pub(crate) enum Aim {
 }
 
 impl Aim {
-    /// Returns the better direction of the column `name`: the direction in the label of the column, or larger values if
-    /// the label has no direction.
+    /// Returns `Min` if smaller values of the column `name` are better, otherwise `Max`.
     pub(crate) fn of(name: &str) -> Aim {
         if labels::better(name) == Some(Direction::Smaller) { Aim::Min } else { Aim::Max }
     }
@@ -149,7 +149,7 @@ pub(crate) struct ReadArgs {
 }
 
 impl ReadArgs {
-    /// Returns the treatment of damaged results.
+    /// Returns `Tolerate` if the user gave `--ignore-damage`, otherwise `Refuse`.
     pub(crate) fn on_damage(&self) -> OnDamage {
         if self.ignore_damage { OnDamage::Tolerate } else { OnDamage::Refuse }
     }

@@ -14,8 +14,8 @@ pub(crate) struct PlotArgs {
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
-    /// File for the picture. The ending of the name sets the format: .svg or .png. [default: FILE's name with the ending .svg, in
-    /// the working directory. No picture with --html]
+    /// File for the picture. The ending of the name sets the format: .svg or .png. [default: FILE's name with
+    /// the ending .svg, in the working directory; no picture with --html]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
@@ -25,11 +25,12 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "FILE")]
     pub(crate) html: Option<PathBuf>,
 
-    /// Kind of picture [default: depends on the columns of the file; the text below the options lists the kinds]
+    /// Kind of picture [default: depends on the columns of the file; the text below the options explains the
+    /// choice]
     #[arg(short, long, value_enum)]
     pub(crate) kind: Option<PictureKind>,
 
-    /// Column on the horizontal axis; for a histogram or a tornado, the measure
+    /// Column on the horizontal axis; in a histogram or a tornado, the measure that the picture shows
     #[arg(short, long, value_name = "COLUMN")]
     pub(crate) x: Option<String>,
 
@@ -48,35 +49,35 @@ pub(crate) struct PlotArgs {
 
     /// Use only the rows that satisfy the condition. You can repeat --where
     ///
-    /// In COLUMN=VALUE, VALUE is a number in the unit of the column, a number with another unit, or a text. A comparison may have
-    /// several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. Text in a comparison is in
-    /// quotes: "device == 'long'". If the picture does not show an axis of
-    /// the sweep, flap draws only the rows at the middle value of this axis. Use --where to choose a different value of
-    /// the axis. A Pareto front has the designs at all values.
+    /// In COLUMN=VALUE, VALUE is a number in the unit of the column, a number with another unit, or a text. A
+    /// comparison may have several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. Put text
+    /// in a comparison in quotes: "device == 'long'". If the picture does not show an axis of the sweep, flap
+    /// draws only the rows at the middle value of this axis. Use --where to choose a different value of the
+    /// axis. A Pareto picture shows the designs at all values of all axes.
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 
-    /// Axis that the picture does not show. Each cell of a map, or each point of a line, shows the best row of all
-    /// values of this axis. You can repeat --best-over
+    /// Axis over which flap chooses the best row. Each cell of a map, or each point of a line, shows the best
+    /// of the rows at all values of this axis. You can repeat --best-over
     ///
-    /// The best row is the row with the largest value of the measure. For power, current, strain, field, drag,
-    /// force_1, force_2 and hover_growth_1_s, the best row has the smallest value. With --where, flap
-    /// chooses the best row only among the rows that satisfy the conditions. Without --best-over, flap draws the rows at
-    /// the middle value of the axis.
+    /// The best row is the row with the largest value of the drawn measure. For power, current, strain,
+    /// field, drag, force_1, force_2 and hover_growth_1_s, the best row has the smallest value. With --where,
+    /// flap chooses the best row only among the rows that satisfy the conditions. Without --best-over, flap
+    /// draws the rows at the middle value of the axis.
     #[arg(long, value_name = "COLUMN")]
     pub(crate) best_over: Vec<String>,
 
-    /// Better direction of the column x in a Pareto picture [default: min for power, current, strain, field,
-    /// drag, force_1, force_2 and hover_growth_1_s, otherwise max]
+    /// Direction in which column x is better in a Pareto picture [default: min for power, current, strain,
+    /// field, drag, force_1, force_2 and hover_growth_1_s, otherwise max]
     #[arg(long, value_enum)]
     pub(crate) x_aim: Option<Aim>,
 
-    /// Better direction of the column y in a Pareto picture [default: as for the column x]
+    /// Direction in which column y is better in a Pareto picture [default: as for column x]
     #[arg(long, value_enum)]
     pub(crate) y_aim: Option<Aim>,
 
-    /// For a tornado: print and draw the change of the measure if one parameter changes by its standard deviation. flap computes
-    /// this change from derivatives and from the sample
+    /// In a tornado, show for each parameter the change of the measure per standard deviation of this
+    /// parameter. flap computes this change twice: from derivatives and from the sample
     ///
     /// The derivatives are the columns of [gradient], averaged over the designs. If the file has no columns of
     /// [gradient], flap computes the derivatives at the means of the parameters, with the sidecar of the results.
@@ -87,18 +88,20 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_name = "TEXT")]
     pub(crate) title: Option<String>,
 
-    /// Width and height of the picture: in pixels, such as 900x560, or in print, such as 84x60mm, 8.4x6cm or 3.3x2.4in
+    /// Width and height of the picture: in pixels, such as 900x560, or on paper, such as 84x60mm, 8.4x6cm or
+    /// 3.3x2.4in
     ///
-    /// If the size is in pixels, a PNG has twice as many pixels in each direction as an SVG. If the size is in print,
-    /// an SVG has the given size, and a PNG has the resolution of --dpi.
+    /// If you give the size in pixels, a PNG has twice the given number of pixels in each direction. If you
+    /// give the size on paper, an SVG has this size, and a PNG has the resolution of --dpi.
     #[arg(long, value_name = "WxH", default_value = "900x560", value_parser = size)]
     pub(crate) size: PictureSize,
 
-    /// Size of the text in print (points); requires a --size in mm, cm or in [default: 8]
+    /// Size of the text on paper (points); requires a --size with a unit of length, such as 84x60mm [default:
+    /// 8]
     #[arg(long, value_name = "PT", value_parser = font_size)]
     pub(crate) font_size: Option<f64>,
 
-    /// Pixels per inch of a PNG; requires a --size in mm, cm or in [default: 300]
+    /// Pixels per inch of a PNG; requires a --size with a unit of length, such as 84x60mm [default: 300]
     #[arg(long, value_name = "N", value_parser = dpi)]
     pub(crate) dpi: Option<f64>,
 
@@ -142,7 +145,7 @@ pub(crate) enum PictureKind {
     /// Two measures of every design, with the Pareto front: the designs for which no other design is better in both
     /// measures
     Pareto,
-    /// Stroke and pitch over time, and the phase portraits of both (rates against angles)
+    /// Stroke and pitch over time, and the phase portraits of stroke and pitch (rate against angle)
     Trajectory,
     /// The rising and the falling branch of a response; unstable orbits are dashed
     Hysteresis,
@@ -160,9 +163,9 @@ impl PictureKind {
 /// The size of a picture: width and height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PictureSize {
-    /// Width and height in pixels of an SVG.
+    /// Width and height in pixels. A PNG has twice these numbers of pixels.
     Pixels([u16; 2]),
-    /// Width and height in print (mm).
+    /// Width and height on paper (mm).
     Print([f64; 2]),
 }
 
@@ -191,7 +194,7 @@ Examples:
   flap plot loop.csv --y stroke_pp_deg --out loop.svg --size 84x60mm --font-size 8
   flap plot sweep.parquet --html sweep.html";
 
-/// Units of length in print (mm).
+/// Units of length for the size of a picture on paper, with the length of each unit in mm.
 const LENGTHS: [(&str, f64); 3] = [("mm", 1.0), ("cm", 10.0), ("in", 25.4)];
 
 /// Parses a size `WxH`: in pixels from 200 to 4000, or with a unit of length, from 10 mm to 2000 mm.
@@ -226,12 +229,12 @@ fn size(text: &str) -> Result<PictureSize, String> {
     }
 }
 
-/// Parses the size of the text in print (pt).
+/// Parses the size of the text on paper (pt).
 fn font_size(text: &str) -> Result<f64, String> {
     between(text.trim().trim_end_matches("pt"), 4.0, 72.0, "points, such as 8")
 }
 
-/// Parses a resolution in print (pixels per inch).
+/// Parses the resolution of a PNG on paper (pixels per inch).
 fn dpi(text: &str) -> Result<f64, String> {
     between(text, 50.0, 2400.0, "pixels per inch, such as 600")
 }

@@ -14,7 +14,7 @@ pub(crate) struct RespondArgs {
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 
-    /// Followed parameter, which first rises and then falls
+    /// Followed parameter: the parameter that first rises and then falls
     #[arg(short, long, value_name = "PARAMETER", default_value = "drive_frequency")]
     pub(crate) along: String,
 
@@ -35,7 +35,7 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
 
-    /// Continue the branches around the ends of bistable bands
+    /// Also compute the unstable orbits, by continuation of the branches around the ends of bistable bands
     ///
     /// The continuation finds the unstable orbits between the rising and the falling branch. flap writes these orbits
     /// as rows of the branch `unstable`.
@@ -44,8 +44,9 @@ pub(crate) struct RespondArgs {
 
     /// Follow the ends of bistable bands in the plane of two parameters: the followed parameter and PARAMETER
     ///
-    /// flap first follows the response with the value of PARAMETER in the design. Each end of a bistable band is then a
-    /// point in the plane of the two parameters. From this point, flap follows the end of the band in both directions.
+    /// flap first computes the response with the design's own value of PARAMETER. Each end of a bistable band
+    /// is then a point in the plane of the two parameters. From this point, flap follows the end of the band
+    /// in both directions.
     #[arg(
         long,
         value_name = "PARAMETER",
@@ -63,8 +64,8 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "edge", help_heading = EDGES)]
     pub(crate) edge_to: Option<String>,
 
-    /// Print only the cusps and ends of each edge, and its points at multiples of VALUE, counted from --edge-from
-    /// [default: all computed points]
+    /// Print only the cusps and ends of each edge, and the points at which PARAMETER is --edge-from plus a
+    /// multiple of VALUE [default: all computed points]
     #[arg(long, value_name = "VALUE", requires = "edge", help_heading = EDGES)]
     pub(crate) edge_step: Option<String>,
 
@@ -106,18 +107,19 @@ pub(crate) struct RespondArgs {
     pub(crate) solver: SolverArgs,
 }
 
-/// Heading of the options for edges.
+/// Heading above the options for edges in the help.
 const EDGES: &str = "Edges";
 
-/// Heading of the options for basins.
+/// Heading above the options for basins in the help.
 const BASINS: &str = "Basins";
 
 const RESPOND_HELP: &str = "\
-The followed parameter first rises, then falls. The first point of each branch starts at rest. Each later point starts \
-from the settled motion of the previous point. If the motions of the rising and of the falling branch differ, the \
-design is bistable. flap halves a step if a bistable band ends within the step. flap also halves a step in which the \
-motion changes by more than a tenth, because the step could contain a narrow bistable band. The summary has one line \
-per design. flap prints the summary to stdout, or to stderr if you give `--out -`.
+The followed parameter first rises, then falls. At the first value of each branch, the motion starts at rest. At each \
+later value, the motion starts from the settled motion at the previous value. If the motions of the rising and of the \
+falling branch differ, the design is bistable. flap halves a step of the followed parameter if a bistable band ends \
+within the step. flap also halves a step in which the motion changes by more than a tenth, because the step could \
+contain a narrow bistable band. The summary has one line per design. flap prints the summary to stdout, or to stderr \
+if you give `--out -`.
 
 flap writes rows in the order of the designs, one whole curve at a time. After Ctrl-C or SIGTERM, flap waits up to \
 0.4 s for the curves that are being computed. flap keeps the complete rows and exits with code 130. A second \

@@ -12,7 +12,7 @@ use super::values::status;
 pub(crate) enum ResultsCommand {
     /// Continue an interrupted sweep with the grid that the sidecar records
     Resume(ResumeArgs),
-    /// Run points of earlier results again with other solver settings
+    /// Run points of earlier results again with different solver settings
     Rerun(RerunArgs),
     /// Join the shards of a sweep into one file
     Merge(MergeArgs),
@@ -31,15 +31,16 @@ pub(crate) struct VerifyArgs {
 
     /// Output format
     ///
-    /// The format `table` has one line per file.
+    /// In the format `table`, flap prints one line per file.
     #[arg(long, value_enum, default_value_t = OutputFormat::Table)]
     pub(crate) format: OutputFormat,
 }
 
 const VERIFY_HELP: &str = "\
-flap compares each FILE with the checksums in the sidecar FILE.meta.toml. For each file, flap prints one line: that \
-the file is sound, or which rows are damaged. flap compares an unfinished file up to the end of the journal. flap \
-counts rows from 1, and compares blocks of 256 rows. If a row is missing or added, all later rows count as damaged.
+flap compares each FILE with the checksums in the sidecar FILE.meta.toml. For each file, flap prints one line with the \
+verdict, such as `sound` or `damaged`, and the damaged rows. In an unfinished file, flap compares the rows that the \
+journal records. flap counts rows from 1, and compares blocks of 256 rows. If a row is missing or added, all later \
+rows count as damaged.
 
 Exit codes:
   0    all files are sound
@@ -111,7 +112,8 @@ pub(crate) struct RerunArgs {
 }
 
 const RERUN_HELP: &str = "\
-The new rows keep the point indices of RESULTS. For a solver setting that you do not give, flap uses the value from RESULTS.
+The new rows have the same point indices as in RESULTS. For a solver setting that you do not give, flap uses the value \
+from RESULTS.
 
 Examples:
   flap results rerun sweep.csv --status unsettled --max-cycles 10000 --out again.csv
@@ -142,9 +144,9 @@ pub(crate) struct MergeArgs {
 
 const MERGE_HELP: &str = "\
 OUT has the same bytes as the results of a sweep on one machine. flap stops with an error if a shard is missing, \
-unfinished, damaged, given twice, or part of a different sweep. flap only joins the rows and computes no row again. If \
-a different build of flap computed the shards, OUT.meta.toml records the different build. Rows of different builds may \
-differ, so flap merges shards of several builds only if you give --mixed-builds.
+unfinished, damaged, given twice, or part of a different sweep. flap only joins the rows and computes no row again. \
+OUT.meta.toml records the build of flap that computed the shards. Rows of different builds may differ, so flap merges \
+shards of several builds only if you give --mixed-builds.
 
 Example, with the shards of `flap sweep grid.toml --shard 1/2` and `--shard 2/2`:
   flap results merge grid.csv grid.1of2.csv grid.2of2.csv";

@@ -30,15 +30,15 @@ pub(crate) struct RunArgs {
 
     /// CSV file with the waveform of the drive. The waveform in the file replaces the parameter drive_shape
     ///
-    /// The columns of the file are time_s (or time_ms) and wave. The drive period is the duration of the file's record, unless
-    /// drive_frequency is set.
+    /// The columns of the file are time_s (or time_ms) and wave. The drive period is the time between the
+    /// first and the last sample of the file, unless drive_frequency is set.
     #[arg(long, value_name = "FILE", conflicts_with = "stroke")]
     pub(crate) waveform: Option<PathBuf>,
 
     /// CSV file with a prescribed stroke
     ///
-    /// The columns of the file are time_s (or time_ms) and stroke_deg (or stroke_rad).
-    /// The drive period is the duration of the file's record, unless drive_frequency is set.
+    /// The columns of the file are time_s (or time_ms) and stroke_deg (or stroke_rad). The drive period is
+    /// the time between the first and the last sample of the file, unless drive_frequency is set.
     #[arg(long, value_name = "FILE")]
     pub(crate) stroke: Option<PathBuf>,
 
@@ -48,7 +48,8 @@ pub(crate) struct RunArgs {
 
     /// CSV file for the motion over time; `-` prints the motion to stdout instead of the summary
     ///
-    /// The first columns of the motions of several designs are the design and the parameters of --each.
+    /// If you give several designs, the first columns contain the name of the design and the parameters of
+    /// --each.
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
@@ -87,7 +88,7 @@ pub(crate) struct RunArgs {
 }
 
 impl RunArgs {
-    /// Returns the designs: each preset or file with each combination of the values of --each.
+    /// Returns one design for each combination of a preset or file with values of the options `--each`.
     pub(crate) fn designs(&self) -> Vec<PointArgs> {
         let mut all = vec![self.changes.clone()];
         for (name, values) in &self.each {
@@ -107,8 +108,8 @@ impl RunArgs {
         self.what.iter().flat_map(|what| all.iter().map(move |changes| design(what, changes))).collect()
     }
 
-    /// Returns the name of one of the given presets and design files, or `None` for a single design. The name of a file has no
-    /// folder and no ending if the short names of all designs differ.
+    /// Returns a name for the preset or file `what`, or `None` if the command line contains only one preset
+    /// or file. The name of a file is its file name without ending, or its path if two file names are equal.
     pub(crate) fn name(&self, what: &str) -> Option<String> {
         let short = |what: &String| {
             Path::new(what)

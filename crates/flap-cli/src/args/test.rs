@@ -94,7 +94,7 @@ pub(crate) struct ImpulseArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
-    /// Smallest number of samples that the motion has per period of the first mode
+    /// Smallest number of samples of the motion per period of the first mode
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = value_parser!(u32).range(1..=1_000_000))]
     pub(crate) samples: u32,
 
@@ -167,7 +167,7 @@ pub(crate) struct ResonanceArgs {
     #[arg(long, value_name = "HZ", value_parser = frequency)]
     pub(crate) to: Option<f64>,
 
-    /// Largest allowed error of the peak frequencies of the driven stroke (Hz)
+    /// Largest allowed error of the drive frequencies at which the settled stroke has a peak (Hz)
     #[arg(long, value_name = "HZ", default_value = "0.05", value_parser = frequency)]
     pub(crate) tolerance: f64,
 
@@ -233,7 +233,7 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = TRACK_HELP)]
 pub(crate) struct TrackArgs {
-    /// CSV file with the tracked points of every image
+    /// CSV file with the tracked points in every image of the film
     ///
     /// The columns of the file are time_s (or time_ms), and root_x, root_y, tip_x and tip_y, two points of the leading edge.
     /// To compute the pitch, flap also requires edge_x and edge_y, a point on the lower edge. All lengths have the same

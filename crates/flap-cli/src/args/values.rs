@@ -9,7 +9,7 @@ use flap_core::simulate::Status;
 use flap_sweep::notation::{nearest, units};
 use flap_sweep::resonance;
 
-/// Target of a trim: the force equals the weight, and all torques are zero.
+/// Value of `--trim` for the target at which the force equals the weight and all torques are zero.
 pub(crate) const HOVER: &str = "hover";
 
 /// Parses `name=value` and returns both parts without surrounding blanks.
@@ -18,7 +18,7 @@ pub(super) fn assignment(text: &str) -> Result<(String, String), String> {
     Ok((name.trim().to_owned(), value.trim().to_owned()))
 }
 
-/// A name and both ends of a range, as texts.
+/// A name, and the beginning and the end of a range, as texts.
 #[derive(Clone, Debug)]
 pub(crate) struct NamedRange {
     pub(crate) name: String,

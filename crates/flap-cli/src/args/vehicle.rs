@@ -50,8 +50,8 @@ pub(crate) struct VehicleArgs {
 
     /// Print the modes of the linear model about hover, and the trim residual
     ///
-    /// The vehicle must have a total_mass, and the moments of inertia, such as body_inertia_roll. The entry `about` of the
-    /// vehicle must be the centre of mass.
+    /// The vehicle must have a total_mass, and the moments of inertia, such as body_inertia_roll. The entry
+    /// `about` in [vehicle] must be the centre of mass.
     #[arg(long)]
     pub(crate) hover: bool,
 
@@ -87,14 +87,15 @@ pub(crate) struct VehicleArgs {
 }
 
 const VEHICLE_HELP: &str = "\
-flap prints the mean force and torque of a vehicle at a point of a grid file with [vehicle], and the derivatives of force \
-and torque with respect to each input. flap also prints the combinations of inputs with the largest effects (singular \
-values). The derivatives are exact derivatives of the settled motion. In the four-bar model, derivatives with respect \
-to the motion of the body are central differences, with steps of 0.01 m/s and 1 rad/s.
+flap prints the mean force and torque of a vehicle at a point of a grid file with [vehicle], and the derivatives of \
+force and torque with respect to each input. flap also prints the combinations of inputs with the largest effects \
+(singular values). flap computes the derivatives of the settled motion without finite differences, with one exception. \
+In the four-bar model, derivatives with respect to the motion of the body are central differences, with steps of 0.01 \
+m/s and 1 rad/s.
 
-The words for inputs are amplitude, bias, frequency, second_harmonic, second_phase and third_harmonic. Append \
-_difference to a word for the value of the left wings minus the value of the right wings. Put the name of a wing \
-before the word to change only this wing, as in left_amplitude.
+The words for inputs are amplitude, bias, frequency, second_harmonic, second_phase and third_harmonic. Each word may \
+have the ending _difference. For example, the input amplitude_difference is the amplitude of the left wings minus the \
+amplitude of the right wings. Put the name of a wing before the word to change only this wing, as in left_amplitude.
 The components of force and torque are force_forward, force_left, force_up (mN); torque_roll, torque_pitch, torque_yaw \
 (uN*m). A positive roll torque lifts the left side, a positive pitch torque lowers the nose, and a positive yaw torque \
 turns the nose to the left.

@@ -39,7 +39,7 @@ pub(crate) fn run(args: &CheckArgs) -> Result<Exit, Failure> {
 /// Columns of the output in csv and json.
 const NAMES: [&str; 4] = ["section", "name", "key", "value"];
 
-/// Returns the summary with one value per row, for csv and json.
+/// Returns the summary of the sweep for csv and json, with one value per row.
 fn rows(plan: &Plan, args: &CheckArgs) -> Vec<Vec<String>> {
     let row = |section: &str, name: &str, key: &str, value: String| {
         vec![section.to_owned(), name.to_owned(), key.to_owned(), value]
@@ -146,7 +146,8 @@ fn wings(vehicle: &Vehicle) -> String {
     format!("a vehicle of {}: {}\n", text::count(named.len() as u64, "wing"), named.join(", "))
 }
 
-/// Returns a table with one line per varied parameter; parameters that vary together have the same axis number.
+/// Returns a table with one line per varied parameter. Parameters that vary together have the same axis
+/// number.
 fn axes(plan: &Plan) -> String {
     let mut table = Table::with_headings(&["axis", "parameter", "from", "to", "count", "unit"]).with_keys(2);
     for (number, axis) in plan.axes().as_slice().iter().enumerate() {
@@ -189,7 +190,7 @@ fn names(plan: &Plan, axis: usize) -> impl Iterator<Item = &str> {
     plan.axes().as_slice()[axis].parameters().iter().map(|(index, _)| plan.parameters()[*index].name)
 }
 
-/// Returns the largest error of a measure as text, in the form of a grid file.
+/// Returns the largest allowed interpolation error of a measure as text, in the notation of grid files.
 fn error_text(error: Error) -> String {
     match error {
         Error::Share(share) => format!("{} %", 100.0 * share),
@@ -197,7 +198,7 @@ fn error_text(error: Error) -> String {
     }
 }
 
-/// Returns a table of the parameters that differ from the preset; empty if no parameter differs.
+/// Returns a table of the parameters that differ from the preset. The text is empty if no parameter differs.
 fn deviations(plan: &Plan) -> String {
     let deviations = deviation::of(plan);
     if deviations.is_empty() {
@@ -211,8 +212,8 @@ fn deviations(plan: &Plan) -> String {
     "\n".to_owned() + &table.text_within(console::width())
 }
 
-/// Returns the parameters that stay the same although they usually change with a varied parameter, and formulas for
-/// these parameters. The text is empty if `linked` is empty.
+/// Returns a text about parameters that are constant although they usually change with a varied parameter,
+/// and formulas that would change them together. The text is empty if `linked` is empty.
 fn links(linked: &[Linked<'_>]) -> String {
     if linked.is_empty() {
         return String::new();
@@ -229,7 +230,8 @@ fn links(linked: &[Linked<'_>]) -> String {
     text
 }
 
-/// Returns the first and the last value of an axis, or the distribution of a sample, as text.
+/// Returns as text the first and the last value of a parameter on an axis, or the distribution of a sampled
+/// parameter.
 fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
     let show = |value| text::value(parameter, value);
     if let Values::Correlated { mean, sd, .. } = values {
@@ -258,7 +260,8 @@ fn span(parameter: &Parameter, values: &Values) -> [String; 2] {
     }
 }
 
-/// Returns the method and the seed of each sample, and the file of the points, as text.
+/// Returns as text the sampling method and the seed of each sample, and the name of a file that contains
+/// points.
 fn samples(plan: &Plan) -> String {
     let mut text = String::new();
     for (number, axis) in plan.axes().as_slice().iter().enumerate() {
@@ -279,14 +282,14 @@ fn samples(plan: &Plan) -> String {
     text
 }
 
-/// Largest number of points that are checked one by one to count the excluded points.
+/// Largest number of points that flap checks to count the excluded points.
 const MOST_COUNTED: u64 = 1_000_000;
 
 /// The points that `[where]` excludes.
 struct Excluded {
-    /// A line about the excluded points; empty for a grid without conditions.
+    /// A text about the number of excluded points. The text is empty for a grid without conditions.
     line: String,
-    /// Number of points that a sweep of the grid runs; approximate for a large grid.
+    /// Number of points that a sweep of the grid runs. For a large grid, the number is approximate.
     runs: u64,
 }
 
@@ -311,7 +314,8 @@ impl Excluded {
     }
 }
 
-/// Returns the varied and derived parameters of the first and the last point, as text; excluded and invalid points are marked.
+/// Returns as text the varied and derived parameters of the first and the last point, and whether these
+/// points are excluded or invalid.
 fn ends(plan: &Plan) -> String {
     let mut text = String::new();
     for (which, index) in [("first", 0), ("last", plan.len() - 1)] {
@@ -329,7 +333,8 @@ fn ends(plan: &Plan) -> String {
     text
 }
 
-/// Returns a line with the search range of the drive frequency.
+/// Returns a text about a drive frequency that is set to the resonance: the range and the tolerance of the
+/// search.
 fn at_resonance(range: &Range) -> String {
     let Range { of, from, to, tolerance } = range;
     let from =

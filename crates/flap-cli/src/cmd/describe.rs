@@ -21,7 +21,7 @@ use crate::data::levels::{Levels, Values};
 use crate::data::source::Source;
 use crate::failure::{Exit, Failure};
 
-/// Measures whose best rows are described by default.
+/// Measures for which flap lists the best row if the user does not give `--by`.
 const MAIN: [&str; 2] = ["lift_mean_mn", "efficiency_gf_per_w"];
 
 pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
@@ -52,11 +52,11 @@ pub(crate) fn run(args: &DescribeArgs) -> Result<Exit, Failure> {
 /// The columns that the user selected.
 struct Selected {
     status: Option<usize>,
-    /// Columns with percentiles, and true if the user named these columns.
+    /// Columns to summarize, and true if the user chose these columns with `--columns`.
     columns: (Vec<usize>, bool),
-    /// For each column of the file, true if the column is read.
+    /// For each column of the file, true if flap reads the cells of the column.
     is_read: Vec<bool>,
-    /// Measures whose best rows are listed.
+    /// Measures for which flap lists the best row.
     by: Vec<usize>,
 }
 
@@ -132,8 +132,8 @@ fn without_numbers(args: &DescribeArgs, table: &Table) -> Failure {
     }))
 }
 
-/// Returns the number of rows of each status, and the rows to describe: all rows, or only the rows with a periodic
-/// motion.
+/// Returns the number of rows with each status, and the rows to summarize. These are all rows if `all` is
+/// true, otherwise only rows with a periodic motion.
 fn statuses(table: &Table, status: usize, all: bool) -> (Vec<Count>, Vec<usize>) {
     let rows: Vec<usize> = (0..table.rows).collect();
     let levels = Levels::of(table, status, &rows);

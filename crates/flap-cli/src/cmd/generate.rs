@@ -13,7 +13,7 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::models;
 
-/// Runs a command of the group.
+/// Runs a command of the group `flap generate`.
 pub(crate) fn run(command: &GenerateCommand) -> Result<Exit, Failure> {
     match command {
         GenerateCommand::Completions(args) => completions(args),
@@ -22,7 +22,7 @@ pub(crate) fn run(command: &GenerateCommand) -> Result<Exit, Failure> {
     }
 }
 
-/// Prints a script with which a shell requests completions from the command `flap`.
+/// Prints a script for a shell. With this script, the shell requests completions from the command `flap`.
 fn completions(args: &CompletionsArgs) -> Result<Exit, Failure> {
     let program = args::line().first().map_or_else(|| "flap".into(), PathBuf::from);
     let name = program.file_stem().unwrap_or_default().to_string_lossy().into_owned();

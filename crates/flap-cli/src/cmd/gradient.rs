@@ -1,4 +1,4 @@
-//! `flap run --gradient`: the parameters with the largest effect on a measure of a point.
+//! `flap run --gradient`: the parameters with the largest effects on a measure of a design point.
 
 use std::fmt::Write as _;
 
@@ -14,10 +14,10 @@ use crate::failure::Failure;
 use crate::print;
 use crate::table::{Table, six_digits, wrapped};
 
-/// Number of parameters in the table.
+/// Number of parameters that flap prints in the table.
 const LISTED: usize = 10;
 
-/// Returns the index of the measure `column`.
+/// Returns the index of the measure called `column`, or an error if the point has no such measure.
 pub(super) fn measure(chosen: &Chosen, column: &str) -> Result<usize, Failure> {
     let names = || chosen.columns().iter().map(|column| column.name.as_str());
     names().position(|name| name == column).ok_or_else(|| {
@@ -32,14 +32,14 @@ const NAMES: [&str; 5] = ["parameter", "value", "unit", "change_per_pct", "reaso
 /// The derivatives of a measure with respect to all parameters.
 pub(super) struct Gradient<'c> {
     column: &'c Column,
-    /// The measure at the point.
+    /// Value of the measure at the design point.
     value: f64,
     slopes: Slopes,
     chosen: &'c Chosen,
 }
 
 impl<'c> Gradient<'c> {
-    /// Computes the derivatives of a measure of a settled row.
+    /// Computes the derivatives of a measure of `row`. Returns an error if the motion is not periodic.
     pub(super) fn of(chosen: &'c Chosen, row: &Row, measure: usize) -> Result<Gradient<'c>, Failure> {
         if row.status != Status::Periodic {
             let status = row.status.name();
@@ -71,7 +71,7 @@ impl<'c> Gradient<'c> {
         print::table(format, &NAMES, &rows, String::new)
     }
 
-    /// Returns the strongest parameters as a table.
+    /// Returns the parameters with the largest effects as a table.
     pub(super) fn page(&self) -> String {
         let Gradient { column: Column { name: column, unit, .. }, value, slopes, chosen } = self;
         let mut table = Table::with_headings(&["parameter", "value", "unit", "change per %", "% per %"]);

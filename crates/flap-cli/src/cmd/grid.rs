@@ -10,7 +10,7 @@ use crate::console;
 use crate::failure::Failure;
 use crate::models;
 
-/// The name of stdin in messages and sidecars.
+/// The name of a grid from stdin in messages and sidecars.
 const STDIN: &str = "<stdin>";
 
 /// Reads the grid file at `path`, or a grid from stdin if the path is `-`, and returns its plan.
@@ -31,7 +31,7 @@ pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     Ok(plan)
 }
 
-/// Returns true for `-`, the name of stdin.
+/// Returns true for `-`, which stands for stdin.
 pub(super) fn is_stdin(path: &Path) -> bool {
     path.as_os_str() == "-"
 }

@@ -13,7 +13,7 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::{models, system};
 
-/// Time between two checks for a signal.
+/// Time between two checks whether a signal such as Ctrl-C has arrived.
 const LOOK: Duration = Duration::from_millis(50);
 
 pub(crate) fn run(args: &LiveArgs) -> Result<Exit, Failure> {

@@ -1,11 +1,12 @@
-//! Failures that are the same for several commands that read rows.
+//! Failures of `flap top` and `flap describe` if no row can be used.
 
 use crate::args::LookArgs;
 use crate::data::filter::Filters;
 use crate::failure::Failure;
 
 impl LookArgs {
-    /// Returns the failure if the file has no rows, or no row satisfies the conditions of --where.
+    /// Returns the failure for a file without rows, or for a file in which no row satisfies the conditions of
+    /// `--where`.
     pub(super) fn no_rows(&self, filters: &Filters) -> Failure {
         let file = self.results.display();
         if self.filters.is_empty() {
@@ -16,7 +17,7 @@ impl LookArgs {
             .help("`flap describe` shows the range of each column")
     }
 
-    /// Returns the failure if no selected row has a value in the column `name`.
+    /// Returns the failure for a file in which no selected row has a value in the column `name`.
     pub(super) fn without(&self, name: &str) -> Failure {
         let file = self.results.display();
         if self.all {

@@ -1,4 +1,4 @@
-//! Commands, with one module for each command, and code that several commands use.
+//! The commands of flap: one module for each command, and modules that several commands use.
 
 pub(crate) mod check;
 pub(crate) mod describe;

@@ -11,12 +11,13 @@ use crate::failure::Failure;
 use crate::job;
 use crate::print::{Keyed, write_motions};
 
-/// Writes a complete CSV file or no file, and prints the number of rows. `row` is the noun for a row, such as `sample`.
-/// For `-`, writes to stdout.
+/// Writes a motion to a CSV file, and prints the number of rows. `row` is the word that this message uses for
+/// a row, such as "sample". If the path is `-`, the motion goes to stdout.
 ///
 /// # Errors
 ///
-/// `Usage` if the file exists and `overwrite` is false, `System` if it cannot be written.
+/// `Usage` if the file exists and `overwrite` is false, `System` if the file cannot be written. After an
+/// error, no incomplete file remains.
 pub(crate) fn write_file(
     motion: &Trajectory,
     path: &Path,
@@ -26,7 +27,8 @@ pub(crate) fn write_file(
     write_motions_file(&[Keyed { keys: &[], motion }], path, overwrite, row)
 }
 
-/// Writes several motions into one CSV file, as [`write_file`] writes one motion.
+/// Writes several motions into one CSV file, one below the other. Otherwise the function does the same as
+/// [`write_file`].
 pub(crate) fn write_motions_file(
     motions: &[Keyed<'_>],
     path: &Path,

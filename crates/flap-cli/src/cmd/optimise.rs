@@ -1,4 +1,4 @@
-//! `flap optimise`: the best design within the axes of a grid.
+//! `flap optimise`: the best design within the ranges of a grid's axes.
 
 mod front;
 mod shared;
@@ -25,10 +25,10 @@ use crate::failure::{Exit, Failure};
 use crate::table::{Table, six_digits, wrapped};
 use crate::{job, print};
 
-/// Columns of the result in csv and json.
+/// Columns of the output in csv and json.
 const NAMES: [&str; 7] = ["section", "name", "value", "unit", "limit", "per_unit", "percent_per_percent"];
 
-/// Measures that the table shows besides the measures in the goal and the conditions.
+/// Measures that the table always shows, in addition to the measures in the goal and the conditions.
 const MAIN: [&str; 6] = [
     "stroke_pp_deg",
     "pitch_pp_deg",
@@ -106,8 +106,8 @@ fn write(plan: &Plan, out: &Path, overwrite: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The command-line options for solver settings that differ from the defaults, and the names of such settings without an
-/// option.
+/// Returns command-line options for the solver settings that differ from the defaults. Also returns the names
+/// of changed settings for which no option exists.
 fn options(solver: &SolverSettings) -> (String, Vec<&'static str>) {
     // `--rtol` also sets the settings that follow it.
     let usual = SolverSettings::default().with_rtol(solver.rtol);
@@ -129,7 +129,7 @@ fn options(solver: &SolverSettings) -> (String, Vec<&'static str>) {
     (options, lost)
 }
 
-/// Prints warnings and notes about the result.
+/// Prints warnings and notes about the result of the search.
 fn remark(problem: &Problem, best: &Optimum) {
     let plan = problem.plan();
     if best.computed < best.points {
@@ -166,7 +166,7 @@ fn remark(problem: &Problem, best: &Optimum) {
     }
 }
 
-/// The unit of the goal, if the goal is a measure or a parameter.
+/// Returns the unit of the goal. The unit is empty if the goal is neither a measure nor a parameter.
 fn unit<'p>(plan: &'p Plan, goal: &str) -> &'p str {
     let column = plan.rows().columns().iter().find(|column| column.name == goal);
     let parameter = || plan.parameters().iter().find(|parameter| parameter.name == goal);
@@ -176,12 +176,12 @@ fn unit<'p>(plan: &'p Plan, goal: &str) -> &'p str {
         .unwrap_or_default()
 }
 
-/// The number of searches that end at the optimum.
+/// Returns the number of searches that end at the best design.
 fn starts_at_optimum(best: &Optimum) -> usize {
     best.optima.first().map_or(0, |first| first.starts)
 }
 
-/// The result as rows of the columns [`NAMES`], with all digits.
+/// Returns the result as rows for csv and json, in the columns [`NAMES`] and with all digits.
 fn cells(problem: &Problem, best: &Optimum) -> Vec<Vec<String>> {
     let plan = problem.plan();
     let mut rows: Vec<Vec<String>> = Vec::new();
@@ -239,7 +239,7 @@ fn cells(problem: &Problem, best: &Optimum) -> Vec<Vec<String>> {
     rows
 }
 
-/// The result as text for a terminal.
+/// Returns the result as text for a terminal.
 fn page(problem: &Problem, best: &Optimum) -> String {
     let plan = problem.plan();
     let goal = problem.goal();
@@ -279,7 +279,7 @@ fn page(problem: &Problem, best: &Optimum) -> String {
     page
 }
 
-/// Returns a table of the conditions; empty without conditions.
+/// Returns a table of the conditions. The text is empty without conditions.
 fn conditions(best: &Optimum) -> String {
     if best.limits.is_empty() {
         return String::new();
@@ -296,7 +296,8 @@ fn conditions(best: &Optimum) -> String {
     format!("\n{}", table.text_within(console::width()))
 }
 
-/// The active bounds and limits, and the optima at which the searches end.
+/// Returns a text about the bounds and conditions that limit the best design, and about the designs at which
+/// the searches end.
 fn ends(problem: &Problem, best: &Optimum) -> String {
     let mut page = String::new();
     if !best.active.is_empty() {

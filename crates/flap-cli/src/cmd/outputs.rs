@@ -1,5 +1,5 @@
-//! Checks the output files of a command. Each output file must differ from the input files and from the other output
-//! files.
+//! Checks the names of a command's output files. Each output file must differ from all input files and from
+//! all other output files.
 
 use std::path::Path;
 
@@ -10,11 +10,12 @@ use flap_sweep::files::results::Format;
 use crate::console::is_stdout;
 use crate::failure::Failure;
 
-/// Checks the names of CSV tables as [`check`] does, and also the endings of the names.
+/// Checks the names of output files that contain CSV tables: the checks of [`check`], and the endings of the
+/// names.
 ///
 /// # Errors
 ///
-/// `Usage` if a name has the ending of another format, and the errors of [`check`].
+/// `Usage` if the ending of a name is not an ending of CSV files, and the errors of [`check`].
 pub(crate) fn check_tables<'p>(
     inputs: &Inputs,
     outputs: impl IntoIterator<Item = Option<&'p Path>>,
@@ -26,11 +27,11 @@ pub(crate) fn check_tables<'p>(
     check(inputs, outputs)
 }
 
-/// Checks the names of output files before any computation.
+/// Checks the names of output files. A command calls this function before it computes anything.
 ///
 /// # Errors
 ///
-/// `Usage` if an output is an input or two outputs are the same file.
+/// `Usage` if an output file is also an input file, or if two outputs are the same file.
 pub(crate) fn check<'p>(
     inputs: &Inputs,
     outputs: impl IntoIterator<Item = Option<&'p Path>>,

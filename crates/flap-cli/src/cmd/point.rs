@@ -1,4 +1,5 @@
-//! The design point of a command: a preset or a point of a grid file, with the parameters of `--set` and `--each`.
+//! The design point of a command: a preset, a device or a point of a grid file, with the changes of `--set`
+//! and `--each`.
 
 use std::path::Path;
 
@@ -20,29 +21,30 @@ use crate::failure::Failure;
 use crate::models;
 use crate::table::six_digits;
 
-/// A design point and its plan.
+/// A design point, and the plan to which the point belongs.
 pub(crate) struct Chosen {
     pub(crate) plan: Plan,
-    /// Value of each parameter, in the order of the parameters.
+    /// Value of each parameter of the plan, in SI units and in the order of the parameters.
     pub(crate) values: Vec<f64>,
-    /// The model with a waveform or stroke from a file, if the command line contains the name of the file.
+    /// The model with a waveform or stroke from a file, if the user gave `--waveform` or `--stroke`.
     sampled: Option<Box<dyn Simulator>>,
     index: u64,
-    /// Indices of the parameters that the command line or a record sets.
+    /// Indices of the parameters whose values come from the command line, or from a record of a waveform or
+    /// stroke.
     set: Vec<usize>,
-    /// Indices of the parameters in `set` whose values have a unit.
+    /// Indices of the parameters in `set` whose values were given with a unit.
     set_with_unit: Vec<usize>,
-    /// True if the drive frequency is the resonance that a search found.
+    /// True if the drive frequency is a resonance that flap found by a search.
     has_found_resonance: bool,
 }
 
 impl Chosen {
-    /// Finds the point that the command line selects.
+    /// Returns the design point that the command line selects.
     pub(crate) fn new(point: &PointArgs, solver: &SolverArgs) -> Result<Chosen, Failure> {
         Chosen::driven_by(None, point, solver)
     }
 
-    /// Finds the point that the command line selects, with the waveform or stroke of a record.
+    /// Returns the design point that the command line selects, with the waveform or the stroke of `record`.
     pub(super) fn driven_by(
         record: Option<&DriveRecord>,
         point: &PointArgs,
@@ -90,8 +92,8 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// Replaces the drive or the stroke by a record. The drive period is the duration of the record, unless the command
-    /// line sets the drive frequency.
+    /// Replaces the waveform of the drive, or the stroke, by the samples of a record. The drive period
+    /// becomes the duration of the record, unless the command line sets the drive frequency.
     fn apply(&mut self, record: &DriveRecord) -> Result<(), Failure> {
         let parameters = self.plan.parameters();
         let mut values = Vec::new();
@@ -131,7 +133,7 @@ impl Chosen {
         Ok(())
     }
 
-    /// If the drive frequency is the resonance, searches for the resonance.
+    /// If the grid file sets the drive frequency to the resonance, searches for the resonance of this point.
     fn find_resonance(&mut self) -> Result<(), Failure> {
         let Some(resonance) = self.plan.resonance() else { return Ok(()) };
         let index = find_parameter(self.plan.parameters(), DRIVE_FREQUENCY)?;
@@ -152,7 +154,7 @@ impl Chosen {
         Ok(())
     }
 
-    /// If rows are computed at hover, searches for the inputs at hover.
+    /// If the grid file requires rows at hover, searches for the inputs at which the vehicle hovers.
     fn find_hover(&mut self) -> Result<(), Failure> {
         let trim = |body: &BodyRows| body.trim(self.plan.solver(), &self.values, &never);
         let Some(found) = self.plan.body().and_then(trim) else { return Ok(()) };
@@ -165,22 +167,23 @@ impl Chosen {
         Ok(())
     }
 
-    /// Returns the information for running the point.
+    /// Returns the values and the solver settings with which a model computes the point.
     pub(crate) fn run(&self) -> PointRun<'_> {
         PointRun::new(Backend::best(), self.plan.solver(), &self.values)
     }
 
-    /// Returns the model of the point.
+    /// Returns the model that computes the point.
     pub(crate) fn simulator(&self) -> &dyn Simulator {
         self.sampled.as_deref().unwrap_or(self.plan.simulator())
     }
 
-    /// Returns the columns of the point's row.
+    /// Returns the columns of the measures in the point's row.
     pub(crate) fn columns(&self) -> &[Column] {
         self.plan.body().map_or_else(|| self.simulator().columns(), Rows::columns)
     }
 
-    /// Runs the point. The row of a vehicle contains the columns of hover and damping that the grid file requests.
+    /// Computes the row of the point. The row of a vehicle also contains the measures about hover and damping
+    /// that the grid file requests.
     pub(crate) fn row(&self) -> Row {
         let run = self.run();
         self.plan
@@ -188,30 +191,33 @@ impl Chosen {
             .map_or_else(|| self.simulator().run_point(&run, None), |body| body.row_at(&run, None))
     }
 
-    /// Computes the derived parameters of `values`, in which the drive frequency has changed. Returns the reason if a
-    /// point with these values cannot be run.
+    /// Computes the derived parameters in `values` again after a change of the drive frequency. If the
+    /// changed values are invalid, returns the reason.
     pub(crate) fn update(&self, values: &mut [f64]) -> Option<Invalid> {
         let frequency = Parameter::index(self.plan.parameters(), DRIVE_FREQUENCY);
         self.plan.update(values, &self.set.iter().copied().chain(frequency).collect::<Vec<usize>>())
     }
 
-    /// Returns the indices of the parameters that the command line or a record sets.
+    /// Returns the indices of the parameters whose values come from the command line, or from a record of a
+    /// waveform or stroke.
     pub(crate) fn set_parameters(&self) -> &[usize] {
         &self.set
     }
 
-    /// Returns true if the drive frequency is the resonance that a search found.
+    /// Returns true if the drive frequency is a resonance that flap found by a search.
     pub(crate) fn has_found_resonance(&self) -> bool {
         self.has_found_resonance
     }
 
-    /// Returns true if the value of a parameter has a unit in the file or on the command line.
+    /// Returns true if the user gave the value of a parameter with a unit, in the grid file or on the command
+    /// line.
     pub(crate) fn has_unit(&self, parameter: usize) -> bool {
         let of_file = !self.set.contains(&parameter) && self.plan.has_unit(parameter);
         of_file || self.set_with_unit.contains(&parameter)
     }
 
-    /// Returns the model and the preset as one line of text.
+    /// Returns a line with the model and the preset, and with the index of the point if the plan has several
+    /// points.
     pub(crate) fn title(&self) -> String {
         let Chosen { plan, index, .. } = self;
         let title = format!("{} from {}", plan.simulator().name(), plan.preset());
@@ -234,7 +240,7 @@ pub(super) fn plan(what: &str) -> Result<Plan, Failure> {
     Err(failure.nearest(what, models::presets(), "`flap models` lists models and presets"))
 }
 
-/// Returns an error if the plan is a vehicle; `command` simulates one wing.
+/// Returns an error if the plan describes a vehicle, because `command` simulates only one wing.
 pub(super) fn check_one_wing(plan: &Plan, what: &str, command: &str) -> Result<(), Failure> {
     let Some(vehicle) = plan.vehicle() else { return Ok(()) };
     let wings = text::count(vehicle.mounts().len() as u64, "wing");
@@ -243,7 +249,7 @@ pub(super) fn check_one_wing(plan: &Plan, what: &str, command: &str) -> Result<(
         .help("remove [vehicle] from the file, and all keys that refer to single wings or their differences"))
 }
 
-/// Returns the plan with the solver settings of the command line. These settings override the settings of the grid
+/// Returns the plan with the solver settings of the command line, which override the settings of the grid
 /// file.
 pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure> {
     let settings = *plan.solver();
@@ -254,7 +260,7 @@ pub(super) fn with_solver(plan: Plan, args: &SolverArgs) -> Result<Plan, Failure
     Ok(plan.with_solver(settings)?)
 }
 
-/// Returns the index of the parameter `name`.
+/// Returns the index of the parameter called `name`, or an error that suggests a similar name.
 pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usize, Failure> {
     Parameter::index(parameters, name).ok_or_else(|| {
         let names = parameters.iter().map(|parameter| parameter.name);
@@ -266,7 +272,7 @@ pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usi
     })
 }
 
-/// Returns the value of a parameter from the text given with `option`.
+/// Parses `text` as the value of a parameter. Messages about mistakes begin with `option`.
 pub(super) fn value(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
     // As in a grid file, a number without a unit is in SI units.
     value::of_text(parameter, text, UnitOf::TextOrSi).map_err(|error| {

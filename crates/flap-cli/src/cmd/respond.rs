@@ -62,7 +62,7 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
     }
 }
 
-/// Prints the summary of each curve without writing rows.
+/// Computes the response curves and prints a summary of each curve, but writes no rows.
 fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> Result<Exit, Failure> {
     let options = RunOptions::with_threads(args.begin.work.threads);
     let summary =
@@ -78,7 +78,7 @@ fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> 
     Ok(job::exit_code(&summary, &args.begin.work))
 }
 
-/// A sink that ignores the rows that it receives.
+/// A sink that ignores all rows.
 struct NoOutput;
 
 impl Sink for NoOutput {
@@ -87,7 +87,8 @@ impl Sink for NoOutput {
     }
 }
 
-/// Returns the followed parameter with its values, from the command line or from the grid's axis.
+/// Returns the plan, and the followed parameter with its values. The values come from the command line or
+/// from an axis of the grid file.
 fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
     let index = point::find_parameter(plan.parameters(), &args.along)?;
     let parameter = &plan.parameters()[index];
@@ -111,7 +112,7 @@ fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
     Ok(Along::new(plan, index, steps, tolerance, args.unstable)?)
 }
 
-/// Returns the second parameter of edges, from the command line.
+/// Returns the parameter of `--edge`, with its range and step from the command line.
 fn edge_range(args: &RespondArgs, plan: &Plan, along: &Along, name: &str) -> Result<EdgeRange, Failure> {
     let index = point::find_parameter(plan.parameters(), name)?;
     let parameter = &plan.parameters()[index];
@@ -125,7 +126,7 @@ fn edge_range(args: &RespondArgs, plan: &Plan, along: &Along, name: &str) -> Res
     Ok(EdgeRange::new(plan, along, index, range, step)?)
 }
 
-/// Parses a step, which is more than zero.
+/// Parses a step of a parameter, which must be more than zero.
 fn positive_step(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
     let number = units::parse_or_si(text, parameter.unit).map_err(|error| {
         let failure = Failure::usage(format!("{option} {text}: {}", error.message("the value")));
@@ -139,7 +140,7 @@ fn positive_step(parameter: &Parameter, option: &str, text: &str) -> Result<f64,
     Err(failure.helps((option == "--step").then_some(help)))
 }
 
-/// Sets a parameter of all designs.
+/// Sets a parameter of the plan to a value of `--set`, for all designs.
 fn set(plan: Plan, along: &Along, name: &str, value: &str) -> Result<Plan, Failure> {
     let index = point::find_parameter(plan.parameters(), name)?;
     let twice =

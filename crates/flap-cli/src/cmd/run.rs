@@ -47,7 +47,8 @@ pub(crate) fn run(args: &RunArgs) -> Result<Exit, Failure> {
     settle(&designs, args)
 }
 
-/// Returns an error if an option does not apply to several designs.
+/// Returns an error if the designs of the command line are too many or repeated, or if an option requires one
+/// design.
 fn check_designs(points: &[PointArgs], args: &RunArgs) -> Result<(), Failure> {
     if points.len() > MOST_DESIGNS {
         let message =
@@ -82,16 +83,17 @@ fn check_designs(points: &[PointArgs], args: &RunArgs) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Largest number of designs of one command, which are run one after another.
+/// Largest number of designs in one call of `flap run`, which runs the designs one after another.
 const MOST_DESIGNS: usize = 1000;
 
-/// One design of the command line.
+/// One of the designs that the command line gives.
 struct Design {
     chosen: Chosen,
     point: PointArgs,
-    /// The measure of `--gradient`.
+    /// Index of the measure that `--gradient` names.
     measure: Option<usize>,
-    /// Columns with the values that distinguish the design from the other designs.
+    /// Names and values of the columns that distinguish this design from the other designs of the command
+    /// line.
     keys: Vec<(String, String)>,
 }
 
@@ -116,7 +118,8 @@ impl Design {
         Ok(Design { chosen, point: point.clone(), measure, keys })
     }
 
-    /// Returns the design in one line: its model and preset, and the values of its keys.
+    /// Returns a line that describes the design: its model, its preset, and the values of the parameters of
+    /// `--each`.
     fn title(&self) -> String {
         let parameters = self.chosen.plan.parameters();
         let values = self.keys.iter().filter_map(|(name, _)| {
@@ -127,7 +130,7 @@ impl Design {
     }
 }
 
-/// Writes the motions of the designs over time.
+/// Writes the motions of the designs over time to the file `path`.
 fn trajectories(designs: &[Design], path: &Path, args: &RunArgs) -> Result<(), Failure> {
     check_length(designs.len(), args)?;
     let request = TrajectoryRequest {
@@ -144,7 +147,7 @@ fn trajectories(designs: &[Design], path: &Path, args: &RunArgs) -> Result<(), F
     write_motions_file(&keyed, path, args.overwrite.force, "sample")
 }
 
-/// Returns an option of the command line that requires a single wing, if the user gave such an option.
+/// If the user gave an option that simulates only one wing, not a vehicle, returns this option.
 fn one_wing_option(args: &RunArgs) -> Option<&'static str> {
     let options = [
         (args.trajectory.is_some(), "--trajectory"),
@@ -154,7 +157,7 @@ fn one_wing_option(args: &RunArgs) -> Option<&'static str> {
     options.into_iter().find_map(|(is_given, option)| is_given.then_some(option))
 }
 
-/// Runs the designs until their motions settle, and prints their rows.
+/// Computes the settled motions of the designs, and prints their rows.
 fn settle(designs: &[Design], args: &RunArgs) -> Result<Exit, Failure> {
     let mut rows = Vec::new();
     for Design { chosen, .. } in designs {
@@ -186,7 +189,8 @@ fn settle(designs: &[Design], args: &RunArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Prints the rows of the designs; with several designs, the first columns of csv and json are the keys of the designs.
+/// Prints the rows of the designs. For several designs, the first columns in csv and json identify the
+/// design.
 fn print_rows(designs: &[Design], rows: &[Row], format: OutputFormat) -> Result<(), Failure> {
     let keys = designs.iter().flat_map(|design| &design.keys).map(|(name, _)| name.as_str());
     let keys = keys.take(designs.first().map_or(0, |design| design.keys.len()));
@@ -201,7 +205,7 @@ fn print_rows(designs: &[Design], rows: &[Row], format: OutputFormat) -> Result<
     })
 }
 
-/// Returns a line with the command that runs an unsettled point longer.
+/// Returns a message that a point did not settle, with a command that runs the point longer.
 fn longer_run(design: &Design, args: &RunArgs) -> String {
     let cycles = design.chosen.plan.solver().max_cycles;
     let PointArgs { what, point, changes } = &design.point;
@@ -231,7 +235,7 @@ fn longer_run(design: &Design, args: &RunArgs) -> String {
     )
 }
 
-/// Largest number of samples in a trajectory, which is held in memory.
+/// Largest number of samples in the motions of one command, because flap stores these motions in memory.
 const SAMPLES_MAX: u64 = 5_000_000;
 
 fn check_length(designs: usize, args: &RunArgs) -> Result<(), Failure> {
@@ -251,7 +255,8 @@ fn check_length(designs: usize, args: &RunArgs) -> Result<(), Failure> {
 /// Columns of a row in csv and json.
 const NAMES: [&str; 4] = ["column", "value", "unit", "meaning"];
 
-/// Returns the row as a page: status and numbers of the run, and a table of the measures.
+/// Returns the row of a design as text for a terminal: the status, numbers about the computation, and a table
+/// of the measures.
 fn page(design: &Design, row: &Row) -> String {
     let chosen = &design.chosen;
     let run_values = run_values(row, six_digits).into_iter();
@@ -267,7 +272,7 @@ fn page(design: &Design, row: &Row) -> String {
     page
 }
 
-/// Returns the row in the columns [`NAMES`], with all digits.
+/// Returns the row of a design for csv and json, in the columns [`NAMES`] and with all digits.
 fn cells(chosen: &Chosen, row: &Row) -> Vec<Vec<String>> {
     let columns = fixed_columns();
     let meaning =
@@ -278,8 +283,8 @@ fn cells(chosen: &Chosen, row: &Row) -> Vec<Vec<String>> {
     run_values.chain(measures(chosen, row, text::float)).collect()
 }
 
-/// Returns status and numbers of a run, with the names of their columns. A number that does not apply to the run is
-/// empty.
+/// Returns the status of a row and numbers about its computation, such as `cycles`, with the names of their
+/// columns. A number that the row does not have is empty.
 fn run_values(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 8] {
     let number = |value: f64| if value.is_nan() { String::new() } else { number(value) };
     [
@@ -294,7 +299,7 @@ fn run_values(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 
     ]
 }
 
-/// Returns the measures in the columns [`NAMES`]; empty if the row has no measures.
+/// Returns the measures of a row in the columns [`NAMES`]. The list is empty if the row has no measures.
 fn measures(chosen: &Chosen, row: &Row, number: fn(f64) -> String) -> Vec<Vec<String>> {
     let columns = chosen.columns();
     let of_model = columns.iter().zip(&row.measures).map(|(column, &measure)| {

@@ -1,4 +1,4 @@
-//! Waveforms and motions from files.
+//! Reads a waveform of the drive, or a prescribed stroke, from a file.
 
 use flap_core::drive::{Repeat, Samples};
 use flap_sweep::files::record::{self, Record};
@@ -7,20 +7,20 @@ use crate::args::RunArgs;
 use crate::console;
 use crate::failure::Failure;
 
-/// A waveform of the drive, or a prescribed stroke.
+/// The samples of a drive waveform or of a prescribed stroke.
 pub(super) struct DriveRecord {
     pub(super) samples: Samples,
     pub(super) is_stroke: bool,
 }
 
 impl DriveRecord {
-    /// Returns the option that names the file of the record.
+    /// Returns the command-line option that contains the name of the file: `--stroke` or `--waveform`.
     pub(super) fn option(&self) -> &'static str {
         if self.is_stroke { "--stroke" } else { "--waveform" }
     }
 }
 
-/// Reads the waveform or the stroke that the command line gives.
+/// Reads the file of `--waveform` or `--stroke`. The result is `None` if the user gave neither option.
 pub(super) fn read(args: &RunArgs) -> Result<Option<DriveRecord>, Failure> {
     let repeat = if args.once { Repeat::Once } else { Repeat::Periodic };
     let (path, quantity) = match (&args.waveform, &args.stroke) {

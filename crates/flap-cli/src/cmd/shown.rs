@@ -1,18 +1,19 @@
-//! Formats cells of result files: with prefixes of units for tables, with all digits for csv and json.
+//! Formats the cells of results files for tables in a terminal, with six digits and suitable units.
 
 use flap_sweep::table::labels;
 use flap_sweep::table::labels::split_unit;
 
 use crate::table::six_digits;
 
-/// A unit in which the shown numbers are easy to read.
+/// A unit in which the numbers of a column are easy to read, and the factor that converts numbers into this
+/// unit.
 pub(super) struct Shown {
     factor: f64,
     unit: String,
 }
 
 impl Shown {
-    /// Chooses a unit for numbers in `unit`.
+    /// Chooses a unit with a suitable prefix for numbers that are given in `unit`.
     pub(super) fn new(unit: &str, numbers: impl IntoIterator<Item = f64>) -> Shown {
         let finite = numbers.into_iter().filter(|number| number.is_finite());
         let largest = finite.fold(0.0, |most: f64, number| most.max(number.abs()));
@@ -29,12 +30,13 @@ impl Shown {
         Shown::new(unit, numbers)
     }
 
-    /// Returns the printed unit; empty for numbers without a unit.
+    /// Returns the chosen unit. The text is empty for numbers without a unit.
     pub(super) fn unit(&self) -> &str {
         &self.unit
     }
 
-    /// Returns the name of a column. If the name does not end in the unit, the unit follows the name.
+    /// Returns the heading of the column `name`. If the name does not end in the chosen unit, the heading
+    /// also contains the unit.
     pub(super) fn heading(&self, name: &str) -> String {
         let (_, ending) = split_unit(name);
         if self.unit.is_empty() || labels::printed(ending) == self.unit {
@@ -44,12 +46,12 @@ impl Shown {
         }
     }
 
-    /// Returns a number with six digits.
+    /// Converts a number into the chosen unit and returns it with six digits.
     pub(super) fn number(&self, number: f64) -> String {
         six_digits(number * self.factor)
     }
 
-    /// Returns a cell: a number with six digits, or a word.
+    /// Returns a cell as text: a number in the chosen unit with six digits, or a word unchanged.
     pub(super) fn cell(&self, cell: &str) -> String {
         let is_kept = self.factor == 1.0 && cell.parse::<u64>().is_ok();
         match cell.parse() {

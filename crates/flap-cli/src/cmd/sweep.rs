@@ -32,7 +32,8 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     job::run(&plan, out, args.begin.on_existing(), &args.begin.work, origin)
 }
 
-/// Returns the plan in the sidecar of earlier results, and the origin of the points if the results are a rerun.
+/// Returns the plan in the sidecar of earlier results. If the earlier results are a rerun, also returns the
+/// results from which its points were chosen.
 fn repeated(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
     let path = args.grid();
     if args.shard.is_some() {
@@ -48,7 +49,7 @@ fn repeated(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
     Ok((job::plan_of(path, &sidecar)?, sidecar.origin().cloned()))
 }
 
-/// Returns the default file for the rows.
+/// Returns the path of the file for the rows if the user did not give `--out`.
 fn default_path(plan: &Plan, args: &SweepArgs) -> Result<PathBuf, Failure> {
     let whole = match &plan.output().path {
         Some(path) => path.clone(),

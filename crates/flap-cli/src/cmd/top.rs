@@ -79,8 +79,8 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Returns the columns to list. The list begins with the columns of the point, or with the first column of other files.
-/// The ranking column, the columns of `--columns`, and the status follow.
+/// Returns the columns that flap lists: first the index and the parameters of the point, or the first column
+/// of a file without statuses. The ranking column, the columns of `--columns` and the status are next.
 fn columns(args: &TopArgs, source: &Source) -> Result<Vec<usize>, Failure> {
     let status = source.position("status");
     let mut columns: Vec<usize> = (0..status.unwrap_or(1)).collect();
@@ -94,7 +94,8 @@ fn columns(args: &TopArgs, source: &Source) -> Result<Vec<usize>, Failure> {
     Ok(columns)
 }
 
-/// Returns the number in a cell of the ranking column; NaN if the cell is empty.
+/// Returns the number in a cell of the ranking column, or NaN for an empty cell. Text in the cell is an
+/// error.
 fn value(by: &str, cell: &str) -> Result<f64, Failure> {
     if cell.is_empty() {
         return Ok(f64::NAN);
@@ -105,16 +106,16 @@ fn value(by: &str, cell: &str) -> Result<f64, Failure> {
     })
 }
 
-/// Returns the number in a cell; NaN if the cell contains no number.
+/// Returns the number in a cell, or NaN if the cell contains no number.
 fn number(cell: &str) -> f64 {
     cell.parse().unwrap_or(f64::NAN)
 }
 
-/// The best rows so far.
+/// The best of the rows that flap has read so far.
 struct Best {
     most: usize,
     aim: Aim,
-    /// The ranked values, each with the cells of its row.
+    /// For each row, its value in the ranking column and its cells.
     rows: Vec<(f64, Vec<String>)>,
 }
 
@@ -127,7 +128,8 @@ impl Best {
         self.rows.push((value, cells.into_iter().map(str::to_owned).collect()));
     }
 
-    /// Keeps only the best rows. Rows with equal values keep their order.
+    /// Sorts the rows and removes all but the best rows. Rows with equal values stay in the order of the
+    /// file.
     fn cut(&mut self) {
         match self.aim {
             Aim::Max => self.rows.sort_by(|a, b| b.0.total_cmp(&a.0)),
@@ -136,14 +138,14 @@ impl Best {
         self.rows.truncate(self.most);
     }
 
-    /// Returns the best rows, the best row first.
+    /// Returns the cells of the best rows. The best row is first.
     fn sorted(mut self) -> Vec<Vec<String>> {
         self.cut();
         self.rows.into_iter().map(|(_, cells)| cells).collect()
     }
 }
 
-/// The numbers of rows that have no rank, by reason.
+/// For each reason why a row has no rank, the number of rows.
 #[derive(Default)]
 struct LeftOut {
     other_statuses: u64,
@@ -151,7 +153,7 @@ struct LeftOut {
 }
 
 impl LeftOut {
-    /// Returns the end of a message about rows without a rank.
+    /// Returns the part of a message that counts the rows without a rank.
     fn text(&self) -> String {
         let mut text = String::new();
         if self.other_statuses > 0 {
@@ -165,7 +167,7 @@ impl LeftOut {
     }
 }
 
-/// Returns the rows as aligned columns.
+/// Returns the best rows as a table for a terminal.
 fn table(names: &[String], units: &[String], rows: &[Vec<String>]) -> String {
     let shown: Vec<Shown> = (units.iter().enumerate())
         .map(|(place, unit)| {

@@ -24,10 +24,12 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
 
-/// Smallest part of an input or a component in a combination that flap lists, as a fraction of the combination.
+/// flap leaves out an input or a component of force and torque whose share of a combination is smaller than
+/// this fraction.
 const SMALL: f64 = 0.1;
 
-/// Fraction of the largest singular value below which a combination has no effect.
+/// flap leaves out a combination of inputs whose singular value is smaller than this fraction of the largest
+/// singular value.
 const NO_EFFECT: f64 = 1e-9;
 
 pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
@@ -107,7 +109,7 @@ pub(crate) fn run(args: &VehicleArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Returns the targets of `--trim`.
+/// Returns the components of force and torque that `--trim` names, with their target values.
 fn targets(given: &[(String, String)], body: &MassProperties) -> Result<Vec<Target>, Failure> {
     let mut targets: Vec<Target> = Vec::new();
     for (name, value) in given {
@@ -142,7 +144,8 @@ fn targets(given: &[(String, String)], body: &MassProperties) -> Result<Vec<Targ
     Ok(targets)
 }
 
-/// Returns force and torque, the matrix, and the combinations of inputs, as text.
+/// Returns as text the mean force and torque, the control matrix, and the combinations of inputs with the
+/// largest effects.
 fn table(found: &Effectiveness) -> String {
     let mut here = Table::with_headings(&["mean", "unit", HEADINGS[0], HEADINGS[1], HEADINGS[2]]);
     let row = |name: &str, unit: &str, numbers: &[f64]| {
@@ -185,7 +188,8 @@ fn table(found: &Effectiveness) -> String {
     )
 }
 
-/// Returns the component of force and the component of torque that an input changes most.
+/// Returns the names of the force component and the torque component that an input changes most. Components
+/// with small changes are left out.
 fn main_effects(column: &[f64]) -> String {
     let largest = |from: usize| {
         let of = (from..from + 3).max_by(|&one, &other| column[one].abs().total_cmp(&column[other].abs()))?;
@@ -197,14 +201,14 @@ fn main_effects(column: &[f64]) -> String {
     made.iter().map(|(_, name)| *name).collect::<Vec<_>>().join(", ")
 }
 
-/// Returns the largest components of a vector with their names.
+/// Returns the largest entries of a vector as text, each entry with its name.
 fn largest_components(shares: &[f64], name: impl Fn(usize) -> String) -> String {
     let mut places: Vec<usize> = (0..shares.len()).filter(|&i| shares[i].abs() >= SMALL).collect();
     places.sort_by(|&one, &other| shares[other].abs().total_cmp(&shares[one].abs()));
     places.iter().map(|&i| format!("{:+.2} {}", shares[i], name(i))).collect::<Vec<_>>().join(" ")
 }
 
-/// Returns the matrix with all digits.
+/// Returns the mean force and torque and the control matrix for csv and json, with all digits.
 fn cells(found: &Effectiveness) -> Vec<Vec<String>> {
     let mut rows = Vec::new();
     let head = ["mean".to_owned(), String::new(), String::new()];

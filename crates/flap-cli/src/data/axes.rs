@@ -1,32 +1,35 @@
-//! The axes of a sweep: the parameters that vary in the results of the sweep.
+//! The axes of a sweep: the columns of parameters that vary in a results file.
 
 use flap_sweep::picture::sample::rank_correlation;
 
 use super::columns::{Cells, Table};
 use super::levels::{Levels, Values};
 
-/// The parameters that a file varies.
+/// The parameters that vary in a results file.
 #[derive(Clone)]
 pub(crate) struct Axes {
-    /// Columns with more than one value, except derived parameters and columns whose values follow from the values of
-    /// an earlier column.
+    /// Columns with two or more different values. Derived parameters are left out, and also columns whose
+    /// values are determined by an earlier column.
     pub(crate) columns: Vec<usize>,
-    /// True for a sample: most values differ, so the points form no grid.
+    /// True if the points are a sample, in which most values of a parameter differ, so that the points form
+    /// no grid.
     pub(crate) sampled: bool,
-    /// Columns among `columns` that represent the parameters of a sample.
+    /// Columns among `columns` that belong to a sample. The other parameters of the sample are not in
+    /// `columns`, because these columns determine their values.
     pub(crate) sample: Vec<usize>,
-    /// Columns among `columns` that contain words.
+    /// Columns among `columns` that contain words instead of numbers.
     pub(crate) words: Vec<usize>,
     /// All parameters of a sample. Each parameter of a sample has a different value in every row, so the value of one
     /// parameter determines the values of the other parameters.
     pub(crate) members: Vec<usize>,
 }
 
-/// A column with more than one value.
+/// The index of a column with two or more different values, and these values.
 type Varied = (usize, Levels);
 
 impl Axes {
-    /// Returns the axes among the columns from the second up to `end`.
+    /// Returns the axes among the columns 1 to `end`, without `end`. Column 0 contains the index of the
+    /// point.
     pub(crate) fn of(table: &Table, end: usize) -> Axes {
         let rows: Vec<usize> = (0..table.rows).collect();
         let (mut kept, mut others): (Vec<Varied>, Vec<Varied>) = (Vec::new(), Vec::new());
@@ -54,7 +57,8 @@ impl Axes {
         }
     }
 
-    /// Returns the columns whose best values are listed: the axes, and all parameters of a sample.
+    /// Returns the columns for which `flap describe` lists the best value: the axes, and all parameters of a
+    /// sample.
     pub(crate) fn listed(&self) -> Vec<usize> {
         let mut listed = [self.columns.as_slice(), &self.members].concat();
         listed.sort_unstable();
@@ -63,16 +67,18 @@ impl Axes {
     }
 }
 
-/// The smallest and the largest value of an axis. Beyond these values, there may be better rows.
+/// The smallest and the largest value of an axis. If the best row has one of these values, points beyond the
+/// axis may be better.
 #[derive(Default)]
 pub(crate) struct Ends {
     range: Option<[f64; 2]>,
-    /// True if the axis has three or more different values. Both values of a shorter axis are ends.
+    /// True if the axis has three or more different values. With only two values, every value would be an
+    /// end.
     has_inner: bool,
 }
 
 impl Ends {
-    /// Returns the ends of these values. NaN is ignored.
+    /// Returns the smallest and the largest of the values. NaN is ignored.
     pub(crate) fn of(values: &[f64]) -> Ends {
         let mut ends = Ends::default();
         for &value in values {
@@ -97,8 +103,8 @@ impl Ends {
     }
 }
 
-/// Returns the parameters of a sample, from the sidecar. Without a sidecar, returns the columns whose values follow
-/// from the columns of the sample.
+/// Returns the columns of all parameters of a sample, which the sidecar lists. Without a sidecar, returns the
+/// columns in `sample` and the columns whose values are determined by a column in `sample`.
 fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let kept_sample = || kept.iter().filter(|(column, _)| sample.contains(column));
     let is_member = |(column, levels): &&Varied| match &table.sample {
@@ -111,8 +117,8 @@ fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) 
     members
 }
 
-/// Returns the kept columns that represent the parameters of a sample, from the sidecar. Without a sidecar, returns the
-/// columns whose values look like a sample.
+/// Returns the columns in `kept` that belong to a sample according to the sidecar. Without a sidecar, returns
+/// the columns in `kept` whose values look like a sample.
 fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let full = |levels: &Levels| levels.len() * 2 > table.rows && table.rows > 3;
     let looks_sampled = |(column, levels): &&Varied| {
@@ -134,11 +140,12 @@ fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     kept.iter().filter(looks_sampled).map(|(column, _)| *column).collect()
 }
 
-/// Smallest number of points at which a sample crossed with axes is recognised without its sidecar.
+/// Smallest number of sample points for which a sample that is combined with axes is recognised without a
+/// sidecar.
 const FEWEST: usize = 8;
 
-/// Returns true if the values of two columns determine each other but have different orders. Only samples have columns
-/// of this kind.
+/// Returns true if the values of two columns determine each other but have different orders. Two columns of
+/// this kind are parameters of a sample.
 fn is_mixed((column, levels): (usize, &Levels), (other, others): &Varied, table: &Table) -> bool {
     let (Cells::Numbers(one), Cells::Numbers(two)) =
         (&table.columns[column].cells, &table.columns[*other].cells)

@@ -1,32 +1,33 @@
-//! The columns of a file, as numbers and words.
+//! The columns of a results file, as numbers and words.
 
 use flap_sweep::notation::text;
 
 use crate::console;
 use crate::failure::Failure;
 
-/// Columns of a file. Only the columns that are needed have cells.
+/// Columns of a results file. Only the columns that the command needs have cells.
 pub(crate) struct Table {
     pub(crate) columns: Vec<Column>,
-    /// Number of rows in the table.
+    /// Number of rows in this table. It may be smaller than the number of accepted rows in the file.
     pub(crate) rows: usize,
-    /// Number of rows in the file.
+    /// Number of rows in the file that satisfy the conditions.
     pub(crate) of: usize,
-    /// Parameters of the sample, from the sidecar; `None` if it is unknown whether the points are a sample.
+    /// Names of the sampled parameters, which the sidecar lists. `None` means that flap does not know whether
+    /// the points are a sample.
     pub(crate) sample: Option<Vec<String>>,
-    /// Derived parameters, if the sidecar lists derived parameters.
+    /// Names of the derived parameters that the sidecar lists. Empty without a sidecar.
     pub(crate) derived: Vec<String>,
-    /// Refined axes, along which points were added between the values, if the sidecar lists refined axes.
+    /// Axes along which the sweep added points between the values of the grid file. Empty without a sidecar.
     pub(crate) refined: Vec<RefinedAxis>,
 }
 
-/// An axis along which points were added between the values.
+/// An axis along which the sweep added points between the values of the grid file.
 #[derive(Clone)]
 pub(crate) struct RefinedAxis {
     pub(crate) name: String,
-    /// True if the values of the axis have a constant ratio.
+    /// True if the ratio of neighbouring values of the axis is constant.
     pub(crate) log: bool,
-    /// Number of cells between the values of the axis in the grid file.
+    /// Number of intervals between the values of the axis in the grid file.
     pub(crate) cells: u64,
 }
 
@@ -43,17 +44,19 @@ pub(crate) struct Column {
 pub(crate) enum Cells {
     /// One number per row; NaN for an empty cell.
     Numbers(Vec<f64>),
-    /// For each row, the index of the word in the row, or [`NO_WORD`] for an empty cell.
+    /// `codes` contains one number per row: the index of the row's word in `words`, or [`NO_WORD`] for an
+    /// empty cell.
     Words { codes: Vec<u32>, words: Vec<String> },
     /// The cells of the column were not read.
     Unread,
 }
 
-/// The index that stands for an empty cell among words.
+/// The code of an empty cell in a column of words.
 pub(crate) const NO_WORD: u32 = u32::MAX;
 
 impl Table {
-    /// Returns the position of a column that the user named.
+    /// Returns the position of the column `name`, or an error that suggests a similar name or lists all
+    /// names.
     pub(crate) fn find(&self, name: &str) -> Result<usize, Failure> {
         find(self.columns.iter().map(|column| column.name.as_str()), name)
     }
@@ -72,7 +75,7 @@ impl Table {
     }
 }
 
-/// Returns the position of a column by its name.
+/// Returns the position of the column `name`, or an error that suggests a similar name or lists all names.
 pub(crate) fn find<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str) -> Result<usize, Failure> {
     names.clone().position(|known| known == name).ok_or_else(|| {
         let failure = Failure::usage(format!("there is no column `{name}`"));
@@ -80,7 +83,7 @@ pub(crate) fn find<'n>(names: impl Iterator<Item = &'n str> + Clone, name: &str)
     })
 }
 
-/// Returns the names of the columns, as lines of help.
+/// Returns a help text that lists the names of the columns.
 pub(crate) fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
     console::help_lines(&format!("the columns are {}", text::listed(names, "column")))
 }
@@ -89,7 +92,7 @@ pub(crate) fn listed<'n>(names: impl Iterator<Item = &'n str>) -> String {
 pub(crate) mod tests {
     use super::*;
 
-    /// Returns a table with the columns `columns`, after a first column that counts the rows.
+    /// Returns a table with a first column that counts the rows, followed by the columns `columns`.
     pub(crate) fn table(columns: &[(&str, &[f64])]) -> Table {
         let rows = columns[0].1.len();
         let column = |name: &str, values: Vec<f64>| Column {
@@ -109,7 +112,8 @@ pub(crate) mod tests {
         }
     }
 
-    /// Returns a table with the axes `v` and `f` (fastest), a column that follows from `v`, and a constant column.
+    /// Returns a table with the axes `v` and `f`, a column that `v` determines, and a constant column. `f`
+    /// changes from row to row.
     pub(crate) fn grid() -> Table {
         table(&[
             ("v", &[1.0, 1.0, 1.0, 2.0, 2.0, 2.0]),

@@ -29,7 +29,7 @@ enum Condition {
     Comparison(Comparison),
 }
 
-/// The condition that a cell has a given number.
+/// The condition that a cell equals a given number.
 struct Number {
     column: usize,
     name: String,
@@ -37,11 +37,11 @@ struct Number {
     wanted: f64,
     /// True if the number was given without a unit.
     is_bare: bool,
-    /// The number in the first row of the column.
+    /// The number of this column in the first row that was checked, as an example for messages.
     first: OnceCell<f64>,
 }
 
-/// The condition that a cell has a given word.
+/// The condition that a cell equals a given word.
 struct Word {
     wanted: String,
     cells: TextColumn,
@@ -51,7 +51,7 @@ struct Word {
 struct TextColumn {
     column: usize,
     name: String,
-    /// Words in the rows, at most one more than a message lists.
+    /// Words that occur in the checked rows. At most `MOST_WORDS + 1` words are stored.
     words: RefCell<BTreeSet<String>>,
 }
 
@@ -60,8 +60,8 @@ impl TextColumn {
         TextColumn { column, name: name.to_owned(), words: RefCell::default() }
     }
 
-    /// Returns the position of the row's word in `wanted`, or the number of wanted words if `wanted` does not contain
-    /// the word.
+    /// Returns the position in `wanted` of the word in the row. If `wanted` does not contain this word,
+    /// returns the length of `wanted`.
     fn place(&self, row: &StringRecord, wanted: &[impl AsRef<str>]) -> usize {
         let word = cell(row, self.column);
         let mut words = self.words.borrow_mut();
@@ -71,7 +71,7 @@ impl TextColumn {
         wanted.iter().position(|wanted| wanted.as_ref() == word).unwrap_or(wanted.len())
     }
 
-    /// Returns a line with the words of the column, if the column contains words.
+    /// Returns a help line with words that occur in the column, if the checked rows contain words.
     fn advice(&self) -> Option<String> {
         let words = self.words.borrow();
         let more = if words.len() > MOST_WORDS { ", …" } else { "" };
@@ -92,12 +92,13 @@ struct Comparison {
     /// Words in quotes, and the columns that the condition compares with these words.
     words: Vec<String>,
     texts: Vec<TextColumn>,
-    /// The numbers in the first row, for the columns that the comparison uses.
+    /// The numbers of the first checked row in the columns that the comparison uses, as examples for
+    /// messages.
     first: OnceCell<Vec<f64>>,
 }
 
 impl Filters {
-    /// Parses the conditions on rows of `source`.
+    /// Parses the conditions of the command line. `source` contains the names and units of the columns.
     pub(crate) fn of(filters: &[Filter], source: &Source) -> Result<Filters, Failure> {
         let condition = |filter: &Filter| match filter {
             Filter::Equal(name, text) => {
@@ -169,7 +170,8 @@ impl Filters {
         Ok(true)
     }
 
-    /// Returns advice if no row satisfies the conditions: units, numbers and words of the columns.
+    /// Returns help lines for the case that no row satisfies the conditions: units and examples of the
+    /// columns in the conditions.
     pub(crate) fn advice(&self) -> Vec<String> {
         let mut lines = Vec::new();
         for condition in &self.0 {
@@ -199,8 +201,8 @@ impl Filters {
         lines
     }
 
-    /// Reads the rows of `source` that satisfy the conditions, as [`Source::read_kept`] does. At least one row must
-    /// satisfy the conditions.
+    /// Reads the rows of `source` that satisfy the conditions into a table, with [`Source::read_kept`].
+    /// Returns an error if no row satisfies the conditions.
     pub(crate) fn read(
         &self,
         source: Source,
@@ -224,22 +226,23 @@ impl Filters {
     }
 }
 
-/// Returns a question for the user if a number without a unit may lack the prefix of the unit. `usual` is a typical
-/// number of the column.
+/// Returns the question whether the user meant a unit with a prefix, such as mN instead of N, for a number
+/// without a unit. `usual` is a typical number of the column, from which flap guesses the prefix.
 pub(crate) fn prefix_question(name: &str, unit: &str, wanted: f64, usual: f64) -> Option<String> {
     let meant = units::meant(wanted, usual, unit).filter(|meant| *meant != wanted)?;
     let text = shown_in(meant, unit);
     Some(format!("a number without a unit is in {unit}: did you mean --where {name}='{text}'?"))
 }
 
-/// Returns the unit of a column, with a number from the column; `None` without a unit.
+/// Returns a help line with the unit of a column and an example, or `None` for a column without a unit.
 fn in_unit(name: &str, unit: &str, usual: f64) -> Option<String> {
     let example =
         if usual.is_finite() { format!(", such as {}", shown_in(usual, unit)) } else { String::new() };
     (!unit.is_empty()).then(|| format!("{name} is in {unit}{example}; a number may have its unit"))
 }
 
-/// Returns a number in a unit. The unit gets a prefix, except units that already have a prefix, such as mN.
+/// Returns a number with its unit as text. Units without a prefix get a suitable prefix, and units such as mN
+/// keep their prefix.
 fn shown_in(number: f64, unit: &str) -> String {
     let prefixed = units::prefixed(number, unit);
     let is_read = units::parse_as(&prefixed, unit).is_ok();
@@ -251,7 +254,8 @@ fn cell(row: &StringRecord, column: usize) -> &str {
     row.get(column).unwrap_or_default()
 }
 
-/// Returns true if a cell has the number that the user gave. The user may give fewer digits than the file has.
+/// Returns true if the number in a cell equals the number that the user gave, up to a relative difference of
+/// 1e-9.
 pub(crate) fn is_same(value: f64, wanted: f64) -> bool {
     value == wanted || (value - wanted).abs() <= 1e-9 * wanted.abs().max(f64::MIN_POSITIVE)
 }
@@ -259,7 +263,8 @@ pub(crate) fn is_same(value: f64, wanted: f64) -> bool {
 /// Parses `text` as a number in the unit of the column `name`; returns `None` for a word.
 ///
 /// # Errors
-/// `Usage` for a number whose unit has another dimension, and for invalid text that begins like a number.
+/// `Usage` if the unit of the number has a different dimension than the column, or if an invalid text begins
+/// like a number.
 pub(crate) fn number(name: &str, unit: &str, text: &str) -> Result<Option<f64>, Failure> {
     if let Ok(number) = text.parse() {
         return Ok(Some(number));
@@ -274,12 +279,13 @@ pub(crate) fn number(name: &str, unit: &str, text: &str) -> Result<Option<f64>, 
     }
 }
 
-/// The words that comparisons of `status` accept.
+/// The words with which a comparison can compare the column `status`.
 static STATUSES: LazyLock<Vec<&'static str>> =
     LazyLock::new(|| Status::ALL.into_iter().map(Status::name).collect());
 const BRANCHES: &[&str] = &["up", "down", "unstable"];
 
-/// Words in quotes in a comparison, and the names that are compared with them.
+/// The words in quotes in a comparison, and the names of the columns that the comparison compares with these
+/// words.
 struct Compared<'t> {
     words: Vec<&'t str>,
     names: Vec<&'t str>,
@@ -298,13 +304,14 @@ impl<'t> Compared<'t> {
         Compared { words, names: names.collect() }
     }
 
-    /// Returns true if the comparison compares the column `name` with words, except for columns whose words flap writes.
+    /// Returns true if the comparison compares the column `name` with words. Returns false for `status` and
+    /// `branch`, whose words flap knows.
     fn is_text(&self, name: &str) -> bool {
         self.names.contains(&name) && !["status", "branch"].contains(&name)
     }
 }
 
-/// The columns that a comparison may name.
+/// The columns that a comparison may contain.
 struct ColumnScope<'n> {
     names: &'n [String],
     units: &'n [String],
@@ -331,14 +338,15 @@ impl Scope for ColumnScope<'_> {
         true
     }
 
-    /// The cells of a measure are in its own unit, such as mN, and not in SI units.
+    /// Returns the unit of a column. The cells of a measure are in the unit of the measure, such as mN, and
+    /// not in SI units.
     fn unit(&self, name: &str) -> Option<String> {
         let column = self.names.iter().position(|known| known == name)?;
         Some(self.units[column].clone())
     }
 }
 
-/// Returns the comparison `text` with printed units, such as `µN·m/rad`.
+/// Returns the comparison `text` with units as they are printed in books, such as `µN·m/rad` for `uN*m/rad`.
 pub(crate) fn printed(text: &str) -> String {
     let (mut shown, mut copied) = (String::new(), 0);
     for unit in units_in(text) {
@@ -374,7 +382,8 @@ fn comparison(text: &str, scope: &ColumnScope<'_>) -> Result<Expression, Failure
     }
 }
 
-/// Returns the value of a cell in a comparison; NaN for an empty cell.
+/// Returns the number that stands for a cell in a comparison. An empty cell is NaN, and a word is its
+/// position among the known words.
 fn value(name: &str, cell: &str) -> Result<f64, Failure> {
     let among = |options: &[&str]| options.iter().position(|option| *option == cell);
     let found = match name {

@@ -7,14 +7,15 @@ use serde::Serialize;
 
 use super::columns::{Cells, NO_WORD, Table};
 
-/// The distinct values of a column, and the value in each row.
+/// The distinct values of a column, and for each row the index of its value.
 pub(crate) struct Levels {
-    /// For each row, the index of the row's value among the distinct values.
+    /// For each row, the index in `values` of the value in this row.
     pub(crate) codes: Vec<usize>,
     pub(crate) values: Values,
 }
 
-/// Distinct values: numbers in rising order, words in the order of the file.
+/// Distinct values of a column. Numbers are in rising order, and words are in the order of their first row in
+/// the file.
 pub(crate) enum Values {
     Numbers(Vec<f64>),
     Words(Vec<String>),
@@ -29,7 +30,7 @@ pub(crate) enum Value {
 }
 
 impl Value {
-    /// Returns the value in the form that users type and files contain.
+    /// Returns the value as text, in the form that a user types and a results file contains.
     pub(crate) fn typed(&self) -> String {
         match self {
             Value::Number(number) => text::float(*number),
@@ -87,7 +88,7 @@ impl Levels {
         }
     }
 
-    /// Returns true if, in each row, the value in the column `other` determines the value in this column.
+    /// Returns true if rows with equal values in the column `other` always have equal values in this column.
     pub(crate) fn is_determined_by(&self, other: &Levels) -> bool {
         let mut image = vec![usize::MAX; other.len()];
         self.codes.iter().zip(&other.codes).all(|(&mine, &theirs)| {

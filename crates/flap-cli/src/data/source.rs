@@ -1,4 +1,4 @@
-//! Reads files of results into columns of numbers and words.
+//! Reads results files into columns of numbers and words.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -18,28 +18,29 @@ use crate::args::ReadArgs;
 use crate::failure::Failure;
 use crate::{console, job, models};
 
-/// Largest number of rows that are read. All numbers of the rows that are read are in memory.
+/// Largest number of rows that flap reads, because it keeps all numbers of these rows in memory.
 const MOST_ROWS: usize = 20_000_000;
 
-/// An open file of results whose header has been read.
+/// An open results file whose header has been read.
 pub(crate) struct Source {
     reader: Reader,
     units: Units,
-    /// Parameters of the sample, from the sidecar; `None` if it is unknown whether the points are a sample.
+    /// Names of the sampled parameters, which the sidecar lists. `None` means that flap does not know whether
+    /// the points are a sample.
     sample: Option<Vec<String>>,
-    /// Derived parameters, if the sidecar lists derived parameters.
+    /// Names of the derived parameters that the sidecar lists. Empty without a sidecar.
     derived: Vec<String>,
-    /// Refined axes, if the sidecar lists refined axes.
+    /// Axes along which the sweep added points. Empty without a sidecar.
     refined: Vec<RefinedAxis>,
-    /// The plan of the sidecar.
+    /// The plan that the sidecar contains.
     plan: Option<Plan>,
     path: PathBuf,
     is_verbose: bool,
 }
 
 impl Source {
-    /// Opens the results and reads the header. If `is_verbose` is true, prints notes and warnings about the results to
-    /// stderr.
+    /// Opens a results file and reads its header. If `is_verbose` is true, prints notes and warnings about
+    /// the results to stderr.
     pub(crate) fn open(path: &Path, read: &ReadArgs, is_verbose: bool) -> Result<Source, Failure> {
         Failure::unless_results(path)?;
         let opened = integrity::open(path, read.on_damage())?;
@@ -72,7 +73,8 @@ impl Source {
         self.names().iter().position(|known| known == name)
     }
 
-    /// Returns the position of a column that the user named.
+    /// Returns the position of the column `name`, or an error that suggests a similar name or lists all
+    /// names.
     pub(crate) fn find(&self, name: &str) -> Result<usize, Failure> {
         columns::find(self.names().iter().map(String::as_str), name)
     }
@@ -82,7 +84,8 @@ impl Source {
         self.units.of_column(&self.names()[column])
     }
 
-    /// Returns true if the sidecar lists this column as a sampled or derived parameter, whose values are no axis.
+    /// Returns true if the sidecar lists this column as a sampled or derived parameter. Such parameters are
+    /// not axes.
     pub(crate) fn is_no_axis(&self, name: &String) -> bool {
         self.sample.iter().flatten().chain(&self.derived).any(|known| known == name)
     }
@@ -99,19 +102,20 @@ impl Source {
         Ok(found)
     }
 
-    /// Takes the plan of the sidecar, if the sidecar has a plan.
+    /// Moves the plan of the sidecar out of the source. The result is `None` without a usable sidecar.
     pub(crate) fn take_plan(&mut self) -> Option<Plan> {
         self.plan.take()
     }
 
-    /// Returns the path of the file.
+    /// Returns the path of the results file.
     pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
     /// Reads the rows that `keep` accepts, with the cells of `wanted` columns.
     ///
-    /// If there are more than `most` accepted rows, the function keeps every second, fourth or eighth row, and so on.
+    /// If `keep` accepts more than `most` rows, the function keeps only every second accepted row, or every
+    /// fourth or eighth row, and so on.
     pub(crate) fn read_kept(
         mut self,
         wanted: impl Fn(usize) -> bool,
@@ -159,15 +163,17 @@ impl Source {
     }
 }
 
-/// A column of which some rows have been read.
+/// A column during the reading of a file: the cells of the rows so far.
 struct Gathered {
     cells: Cells,
     codes: HashMap<String, u32>,
-    /// Texts of the first cells of a column of numbers. If a later cell is a word, these texts are words too.
+    /// Texts of the first cells of a column of numbers. If a later cell is a word, flap treats these texts as
+    /// words too.
     texts: StringRecord,
 }
 
-/// Largest number of texts that a column of numbers keeps. The texts take more memory than the numbers.
+/// Largest number of cells of a column of numbers that flap also stores as text. The texts need more memory
+/// than the numbers.
 const MOST_TEXTS: usize = 100_000;
 
 impl Gathered {
@@ -210,7 +216,8 @@ impl Gathered {
         }
     }
 
-    /// Converts the first `rows` cells, which are numbers or empty, to words. The next cell is a word.
+    /// Converts the first `rows` cells, which are numbers or empty, to words, because the next cell is a
+    /// word.
     fn turn_to_words(&mut self, rows: usize) {
         let Cells::Numbers(values) = &self.cells else { return };
         let mut words = Vec::new();
@@ -236,7 +243,7 @@ fn code(cell: &str, words: &mut Vec<String>, codes: &mut HashMap<String, u32>) -
     code
 }
 
-/// Returns the plan of results, if the sidecar contains a usable plan.
+/// Returns the plan of a results file, if the sidecar of the file contains a usable plan.
 fn plan_beside(results: &Path, sidecar: Option<&Sidecar>) -> Option<Plan> {
     let beside = sidecar_of(results);
     let plan = job::plan_of(&beside, sidecar?).ok();
@@ -249,8 +256,8 @@ fn plan_beside(results: &Path, sidecar: Option<&Sidecar>) -> Option<Plan> {
     plan
 }
 
-/// Returns the names of the sampled parameters of a plan. The result is `None` if an axis lists values of several
-/// parameters, because a list may contain the points of a sample.
+/// Returns the names of the sampled parameters of a plan. The result is `None` if no parameter is sampled but
+/// an axis lists values of several parameters. Such a list may contain the points of a sample.
 fn sampled(plan: &Plan) -> Option<Vec<String>> {
     let parameters = plan.parameters();
     let is_sampled = |values: &Values| matches!(values, Values::Sampled { .. } | Values::Correlated { .. });
@@ -277,8 +284,8 @@ fn refined(plan: &Plan) -> Vec<RefinedAxis> {
     parameters.map(axis).collect()
 }
 
-/// The units of columns, from the plan in the sidecar. Without a sidecar, units come from the models and from the
-/// endings of names.
+/// The units of columns, which the plan in the sidecar determines. Without a sidecar, flap takes the units
+/// from the models and from the endings of the column names.
 struct Units(BTreeMap<String, String>);
 
 impl Units {

@@ -1,9 +1,10 @@
-//! Counts of excluded points as text for messages.
+//! Text for messages about the number of excluded points.
 
 use flap_sweep::notation::text::count;
 use flap_sweep::run::Unsatisfied;
 
-/// Returns the number of excluded points, and for each condition the number of points that do not satisfy it.
+/// Returns a text with the number of excluded points, and for each condition the number of points that do not
+/// satisfy the condition.
 pub(crate) fn text(excluded: u64, unsatisfied: &[Unsatisfied]) -> String {
     let points = count(excluded, "point") + if excluded == 1 { " is" } else { " are" };
     let each: Vec<String> = unsatisfied

@@ -1,4 +1,4 @@
-//! Writes files that are complete or absent.
+//! Writes files so that no incomplete file remains after an error.
 
 use std::fs::{self, File};
 use std::io;
@@ -11,9 +11,11 @@ use flap_sweep::files::sidecar::Sidecar;
 use crate::console;
 use crate::failure::Failure;
 
-/// Writes a complete file or no file. An earlier file remains until the new file is complete.
+/// Writes a file. After an error, no incomplete file remains, and an existing file is replaced only when the
+/// new file is complete.
 ///
-/// `write` writes the rows and returns the sidecar of the results. The inner result is the result of `write`.
+/// `write` writes the rows and returns the sidecar of the results. The outer `Result` contains errors from
+/// creating the file, and the inner `Result` is the return value of `write`.
 pub(crate) fn make<E: From<io::Error>>(
     results: &Path,
     overwrite: bool,
@@ -38,7 +40,8 @@ pub(crate) fn make<E: From<io::Error>>(
     Ok(written)
 }
 
-/// Warns that another run could write to the same results.
+/// Prints a warning that the results cannot be locked, so that another run of flap could write to the same
+/// file.
 pub(super) fn warn_unlocked(results: &Path, error: &io::Error) {
     console::warn(&format!(
         "{} cannot be locked ({error}): make sure that no other run writes to this file",

@@ -1,4 +1,5 @@
-//! Work that several commands share: running a plan into a file, opening results, and writing files.
+//! Work that several commands share: running a plan and writing its rows to a file, opening results, and
+//! writing other files.
 
 pub(crate) mod exclusion;
 mod make;

@@ -22,13 +22,13 @@ use crate::models;
 const SIDECAR_HELP: &str =
     "the sidecar FILE.meta.toml must be in the folder of the results; it contains the grid";
 
-/// Returns the plan of results, from the sidecar in the same folder.
+/// Returns the plan and the sidecar of a results file. The sidecar is in the same folder as the results file.
 pub(crate) fn recorded(results: &Path, on_damage: OnDamage) -> Result<(Plan, Sidecar), Failure> {
     let sidecar = read_sidecar(results, on_damage)?;
     Ok((plan_of(&sidecar_of(results), &sidecar)?, sidecar))
 }
 
-/// Reads the sidecar of results.
+/// Reads the sidecar of a results file.
 pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sidecar, Failure> {
     let path = sidecar_of(results);
     let sidecar = match Sidecar::read(&path) {
@@ -46,7 +46,7 @@ pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sideca
     })
 }
 
-/// Returns the plan in a sidecar, which was read from `path`.
+/// Returns the plan that a sidecar contains. Messages name the sidecar by its `path`.
 pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     sidecar.plan(models::all()).map_err(|error| {
         let failure = Failure::usage(format!("{}: {error}", path.display()));
@@ -74,7 +74,7 @@ pub(crate) fn open(results: &Path, read: &ReadArgs) -> Result<Opened, Failure> {
     Ok(opened)
 }
 
-/// Returns an error if unfinished results have no header, which is written at the first checkpoint.
+/// Returns an error if unfinished results have no header. flap writes the header at the first checkpoint.
 pub(crate) fn require_checkpoint(results: &Path, opened: &Opened) -> Result<(), Failure> {
     let is_unfinished = opened.notes.iter().any(|note| matches!(note, Note::Unfinished { .. }));
     if !is_unfinished || !opened.reader.names().is_empty() {
@@ -86,7 +86,7 @@ pub(crate) fn require_checkpoint(results: &Path, opened: &Opened) -> Result<(), 
     Err(failure.help(format!("if the sweep is not running, `flap results resume {results}` continues it")))
 }
 
-/// Returns an error if the sidecar of unfinished results does not describe the rows that their journal records.
+/// Returns an error if the sidecar and the journal of unfinished results describe different sweeps.
 pub(crate) fn require_own_sidecar(results: &Path, sidecar: &Sidecar) -> Result<(), Failure> {
     let past = journal::read(&journal_of(results)).ok().flatten();
     let past = past.filter(|_| sidecar.state != State::Complete);
@@ -99,12 +99,13 @@ pub(crate) fn require_own_sidecar(results: &Path, sidecar: &Sidecar) -> Result<(
     }
 }
 
-/// Prints a note about results as a warning.
+/// Prints a note about a results file as a warning.
 pub(crate) fn tell(note: &Note) {
     console::warn(&note.to_string());
 }
 
-/// Opens results that have a sidecar, and returns the results with the plan in the sidecar.
+/// Opens a results file that has a sidecar. Returns the opened results, the plan in the sidecar, and the
+/// sidecar.
 pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, Plan, Sidecar), Failure> {
     Failure::unless_results(results)?;
     Format::of(results)?;
@@ -113,9 +114,10 @@ pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, 
     Ok((open(results, read)?, plan, sidecar))
 }
 
-/// Returns the plan of results. If the refinement of the plan added `point`, the plan includes the added points.
+/// Returns the plan of a results file. If `point` is a point that the refinement added, the plan includes all
+/// added points.
 ///
-/// The rows determine the points of a refinement.
+/// The function computes the added points again from the rows of the results.
 pub(crate) fn with_refinement(
     plan: Plan,
     results: &Path,
@@ -136,7 +138,7 @@ pub(crate) fn with_refinement(
     Ok(replayed.map_or(plan, |(plan, _)| plan))
 }
 
-/// Prints a warning about the rows of damaged results that were left out.
+/// Prints a warning about the rows that were left out because the results are damaged.
 pub(crate) fn tell_missed(results: &Path, reader: &Reader) {
     if let Some(missed) = reader.missed() {
         console::warn(&format!("{}: {missed}", results.display()));

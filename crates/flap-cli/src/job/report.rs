@@ -1,4 +1,4 @@
-//! The report of a finished job.
+//! The messages that flap prints at the end of a sweep or of `flap respond`.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use flap_sweep::table::layout::Layout;
 use super::exclusion;
 use crate::console::{self, shell_word};
 
-/// Prints the summary of the rows and the name of the file with the rows, or of the stream `out`.
+/// Prints a summary of the rows, and the name of the file or stream that contains the rows.
 pub(super) fn report(plan: &Plan, done: &Done, out: &Path) {
     let Done { summary, rows_before, seconds, place } = done;
     for InvalidPoint { point, reason } in &summary.invalid {
@@ -68,7 +68,7 @@ fn refinement(refined: &Refined) -> String {
     format!("{added}: the estimated interpolation error is above `error` in {above} of {boxes} boxes ({why})")
 }
 
-/// Prints the numbers of rows with reduced accuracy or reliability, with advice.
+/// Prints how many rows are inaccurate or unreliable, with advice.
 fn report_warnings(plan: &Plan, done: &Done) {
     let Warnings { inaccurate, negative_power, at_range_end, unbalanced } = done.summary.warnings;
     if inaccurate > 0 {
@@ -120,8 +120,8 @@ fn report_warnings(plan: &Plan, done: &Done) {
     }
 }
 
-/// Prints the number of points that did not settle, with a command that runs them longer. For a rerun the advice
-/// differs, because a rerun has already run these points longer.
+/// Prints the number of points that did not settle, and advice, such as a command that runs these points
+/// longer. In a rerun, the advice differs, because a rerun has already run the points longer.
 fn report_unsettled(plan: &Plan, done: &Done) {
     let unsettled = done.summary.statuses.of(Status::Unsettled);
     if unsettled == 0 {
@@ -151,7 +151,7 @@ fn report_unsettled(plan: &Plan, done: &Done) {
     console::say(&format!("{points} did not settle within {periods}. {longer}"));
 }
 
-/// Returns true if the points were chosen from earlier results.
+/// Returns true if the plan is a rerun, whose points were chosen from earlier results.
 fn is_rerun(plan: &Plan) -> bool {
     matches!(plan.selection(), Selection::Listed(_))
 }
@@ -161,7 +161,7 @@ fn beside(results: &Path, word: &str) -> String {
     shell_word(&Format::with_word(results, word).to_string_lossy())
 }
 
-/// Prints the number of curves and the name of the file with the curves, or of the stream `out`.
+/// Prints the number of response curves, and the name of the file or stream that contains their rows.
 pub(super) fn report_curves(done: &Done, out: &Path) {
     let Done { summary, place, .. } = done;
     let to = place.as_deref().unwrap_or(out).display();

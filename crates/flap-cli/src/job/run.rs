@@ -24,8 +24,8 @@ use crate::print;
 use crate::progress::Bar;
 use crate::system;
 
-/// Runs `plan`, writes its rows to `out`, and prints a report. For a rerun, `origin` has the earlier results of the
-/// points.
+/// Runs `plan`, writes its rows to `out`, and prints a report. In a rerun, `origin` names the earlier results
+/// from which the points were chosen.
 pub(crate) fn run(
     plan: &Plan,
     out: PathBuf,
@@ -36,7 +36,7 @@ pub(crate) fn run(
     run_and_summarize(plan, out, on_existing, work, origin, OutputFormat::Table)
 }
 
-/// Runs `plan` as [`run`] does, and prints summaries of curves in `format`.
+/// Runs `plan` as [`run`] does, and prints summaries of the response curves in `format`.
 pub(crate) fn run_and_summarize(
     plan: &Plan,
     out: PathBuf,
@@ -88,7 +88,8 @@ pub(crate) fn run_and_summarize(
     Ok(ended(plan, &done, &job.out, work))
 }
 
-/// Prints the report of a job that ran, and returns the exit code. `out` is the file or the stream with the rows.
+/// Prints the report of a finished or interrupted job, and returns the exit code. `out` is the file or the
+/// stream that contains the rows.
 fn ended(plan: &Plan, done: &Done, out: &Path, work: &WorkArgs) -> Exit {
     if plan.followed().is_some() {
         report_curves(done, out);
@@ -119,7 +120,7 @@ fn exit_code_of(all_periodic: bool, work: &WorkArgs) -> Exit {
 
 /// Runs the plan with a progress bar, until a signal stops it.
 ///
-/// If the plan follows a parameter, `verdicts` summarizes each curve.
+/// If the plan follows a parameter, `verdicts` collects or prints a summary of each response curve.
 pub(crate) fn run_with_progress(
     plan: &Plan,
     options: &RunOptions,

@@ -1,4 +1,4 @@
-//! Summaries of curves: one line for each curve, or rows for csv and json.
+//! Summaries of response curves: one line for each curve, or rows for csv and json.
 
 use std::io;
 
@@ -12,18 +12,19 @@ use crate::args::OutputFormat;
 use crate::console;
 use crate::table::assignment;
 
-/// The output stream for the lines about curves.
+/// The output stream for the lines that summarize response curves.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Lines {
-    /// Stdout. If the program that reads stdout closes it, the run ends.
+    /// The lines go to stdout. If the program that reads stdout closes stdout, the run ends.
     Stdout,
-    /// Stdout, while rows go to a file. If the program that reads stdout closes it, the run continues.
+    /// The lines go to stdout, and the rows go to a file. If the program that reads stdout closes stdout, the
+    /// run continues.
     StdoutBesideFile,
-    /// Stderr, because the rows go to stdout.
+    /// The lines go to stderr, because the rows go to stdout.
     Stderr,
 }
 
-/// Summaries of curves.
+/// Summaries of response curves.
 pub(crate) struct Verdicts<'a> {
     format: OutputFormat,
     stream: Lines,
@@ -32,12 +33,13 @@ pub(crate) struct Verdicts<'a> {
     plan: &'a Plan,
     along: &'a Along,
     parameter: &'a Parameter<'a>,
-    /// Index of the measure of the stroke's amplitude among the measures of the model.
+    /// Index of the measure `stroke_amplitude_deg` among the measures of the model.
     stroke: usize,
 }
 
 impl<'a> Verdicts<'a> {
-    /// Returns summaries if the plan follows a parameter and its model measures the stroke; otherwise `None`.
+    /// Returns an empty list of summaries. The result is `None` if the plan follows no parameter, or if its
+    /// model has no measure `stroke_amplitude_deg`.
     pub(crate) fn of(plan: &'a Plan, format: OutputFormat, stream: Lines) -> Option<Verdicts<'a>> {
         let along = plan.followed()?;
         let parameter = along.parameter(plan);
@@ -46,7 +48,7 @@ impl<'a> Verdicts<'a> {
         Some(Verdicts { format, stream, rows: Vec::new(), plan, along, parameter, stroke })
     }
 
-    /// Prints the line of a curve, or keeps its rows for csv and json.
+    /// Prints the summary line of a response curve, or stores the summary as rows for csv and json.
     pub(crate) fn add(&mut self, curve: &Curve) -> io::Result<()> {
         let verdict = Verdict::new(curve, self.along, self.parameter, self.stroke);
         if self.format != OutputFormat::Table {
@@ -68,14 +70,15 @@ impl<'a> Verdicts<'a> {
         }
     }
 
-    /// Returns the columns for csv and json: the varied parameters, then a band of the followed parameter.
+    /// Returns the column names for csv and json: the varied parameters, and then the columns that describe a
+    /// band of the followed parameter.
     pub(crate) fn names(&self) -> Vec<&str> {
         let varied = self.plan.axes().varied().map(|index| self.plan.parameters()[index].name);
         varied.chain(["kind", "from", "to", "unit", "resolution", "jump_deg", "motions"]).collect()
     }
 
-    /// Returns one row for each band of a curve. A curve without bands has one row for the whole range of the
-    /// parameter.
+    /// Returns the summary of a response curve as one row for each bistable or irregular band. A curve
+    /// without such bands has one row for the whole range of the followed parameter.
     fn cells(&self, design: &Point, verdict: &Verdict) -> Vec<Vec<String>> {
         let row = |kind: &str, [from, to]: [f64; 2], jump: Option<f64>, motions: String| {
             let values = self.plan.axes().varied();
@@ -109,7 +112,7 @@ impl<'a> Verdicts<'a> {
         bands.collect()
     }
 
-    /// Returns the parameters that distinguish a design from the other designs, as text.
+    /// Returns the values of the varied parameters in a design as text.
     fn design(&self, design: &Point) -> String {
         let assignment = |index: usize| assignment(&self.plan.parameters()[index], design.values[index]);
         self.plan.axes().varied().map(assignment).collect::<Vec<_>>().join(", ")

@@ -80,7 +80,8 @@ impl Canvas {
             PictureSize::Pixels([width, height]) => {
                 if args.font_size.is_some() || args.dpi.is_some() {
                     let option = if args.font_size.is_some() { "--font-size" } else { "--dpi" };
-                    let message = format!("{option} requires a --size in mm, cm or in");
+                    let message =
+                        format!("{option} requires a --size with a unit of length: mm, cm or in (inch)");
                     return Err(Failure::usage(message).help("for example --size 84x60mm"));
                 }
                 let size = Size { width: width.into(), height: height.into(), label: 14, title: 17 };

@@ -1,4 +1,5 @@
-//! Operations that differ between operating systems. Each system has a file with the same functions.
+//! Operations that differ between operating systems. Unix and Windows each have a source file, and both files
+//! have the same functions.
 
 #[cfg(unix)]
 mod unix;

@@ -1,4 +1,4 @@
-//! Linux, macOS and other Unix systems.
+//! Signals and stdout on Linux, macOS and other Unix systems.
 
 use std::fs::File;
 use std::io;
@@ -11,10 +11,11 @@ use signal_hook::flag;
 
 use crate::failure::Exit;
 
-/// Returns a flag that the first SIGINT or SIGTERM sets. The second signal ends the process at once.
+/// Returns a flag that becomes true at the first signal SIGINT or SIGTERM. The second of these signals ends
+/// the process at once.
 ///
-/// A signal that the process ignores from its start remains ignored. Shells start background jobs in this way, which
-/// protects the jobs from Ctrl-C at the terminal.
+/// If the process ignores SIGINT or SIGTERM from its start, this signal remains ignored. Some shells start
+/// background jobs with SIGINT ignored, so that Ctrl-C at the terminal does not stop the jobs.
 pub(crate) fn stop() -> Arc<AtomicBool> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
@@ -39,9 +40,10 @@ fn is_ignored(signal: i32) -> bool {
     }
 }
 
-/// Makes a write beyond the file size limit of the process (`ulimit -f`) return an error instead of a signal.
+/// After this call, a write beyond the file size limit of the process (`ulimit -f`) returns an error and does
+/// not end the process.
 ///
-/// By default, the signal for the file size limit ends the process.
+/// By default, such a write causes the signal SIGXFSZ, which ends the process.
 pub(crate) fn refuse_large_files() {
     let _ = flag::register(SIGXFSZ, Arc::default());
 }

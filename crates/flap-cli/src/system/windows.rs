@@ -1,4 +1,4 @@
-//! Windows.
+//! Signals and stdout on Windows.
 
 use std::fs::File;
 use std::os::windows::io::AsHandle as _;
@@ -12,16 +12,17 @@ use windows_sys::core::BOOL;
 
 use crate::failure::Exit;
 
-/// Flag that an event of the Windows console, such as Ctrl-C, sets.
+/// Flag that becomes true at an event of the Windows console, such as Ctrl-C.
 static STOP: OnceLock<Arc<AtomicBool>> = OnceLock::new();
 
 /// Longest time that Windows waits before it ends a process whose console is closed.
 const CLOSING: Duration = Duration::from_secs(5);
 
-/// Returns a flag that the first Ctrl-C or Ctrl-Break sets. The second Ctrl-C or Ctrl-Break ends the process at once.
+/// Returns a flag that becomes true at the first Ctrl-C or Ctrl-Break. The second Ctrl-C or Ctrl-Break ends
+/// the process at once.
 ///
-/// If the user closes the console or logs off, the flag is set too, and Windows ends the process within seconds. If
-/// the parent process disables Ctrl-C, Ctrl-C has no effect.
+/// If the user closes the console or logs off, the flag also becomes true, and Windows ends the process
+/// within seconds. If the parent process disables Ctrl-C, Ctrl-C has no effect.
 #[expect(unsafe_code, reason = "the standard library cannot handle events of the console")]
 pub(crate) fn stop() -> Arc<AtomicBool> {
     let stop = STOP.get_or_init(Arc::default);
@@ -31,7 +32,8 @@ pub(crate) fn stop() -> Arc<AtomicBool> {
     Arc::clone(stop)
 }
 
-/// Handles an event of the console, in a new thread. Returns 1, so that no other handler is called.
+/// Handles an event of the console. Windows calls this function in a new thread, and the return value 1
+/// prevents further handlers from being called.
 extern "system" fn handle(event: u32) -> BOOL {
     let is_second = STOP.get_or_init(Arc::default).swap(true, Ordering::Relaxed);
     if !matches!(event, CTRL_C_EVENT | CTRL_BREAK_EVENT) {

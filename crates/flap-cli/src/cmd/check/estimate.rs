@@ -10,27 +10,29 @@ use flap_sweep::run::RunOptions;
 use super::trial::Trial;
 use crate::duration;
 
-/// Estimates for a sweep, from a few points of the sweep.
+/// Estimates of the time and the file size of a sweep. flap computes a few points of the sweep to find these
+/// estimates.
 #[derive(Default)]
 pub(super) struct Estimate {
-    /// Message if every checked point is invalid, with the reason of the first invalid point.
+    /// If every checked point is invalid, a message with the reason why the first point is invalid.
     pub(super) invalid: Option<String>,
-    /// Lower and upper bound of the likely time (s). `None` if no point was run.
+    /// Lower and upper bound of the likely duration of the sweep (s). `None` if no point was run.
     pub(super) seconds: Option<[f64; 2]>,
     /// Size of the rows as CSV (bytes). `None` if no point was run.
     pub(super) bytes: Option<f64>,
-    /// True if all points of the sample ran to their ends; otherwise the time has only a lower bound.
+    /// True if flap finished all points of the sample. Otherwise flap prints only the lower bound of the
+    /// time.
     is_complete: bool,
     /// Number of threads.
     pub(super) threads: usize,
-    /// Number of points that were run.
+    /// Number of points that flap ran, or found invalid, for the estimates.
     pub(super) tried: usize,
-    /// Largest number of points of a refined grid.
+    /// The limit `max_points` of a refined grid.
     most_points: Option<u64>,
 }
 
 impl Estimate {
-    /// Returns the estimates as a line.
+    /// Returns the estimates as one line of text.
     pub(super) fn line(&self) -> Option<String> {
         let [low, high] = self.seconds?;
         let time = if self.is_complete {
@@ -54,9 +56,11 @@ fn size(bytes: f64) -> String {
     if number < 9.95 && length > 1.0 { format!("{number:.1} {name}") } else { format!("{number:.0} {name}") }
 }
 
-/// Runs some points of `plan` to estimate the time of `points` points on `threads` threads, by default one per core.
+/// Estimates the time of a sweep of `points` points on `threads` threads, or on one thread per core. For this
+/// estimate, the function runs some points of `plan`.
 ///
-/// The estimate of a whole plan contains all points that the refinement of the plan may add. A shard adds no points.
+/// The estimate of a whole plan includes all points that the refinement of the plan may add. A refinement
+/// adds no points to a shard.
 pub(super) fn of(plan: &Plan, points: u64, shard: Option<Shard>, threads: Option<NonZeroUsize>) -> Estimate {
     let most_points = plan.refine().map(|refine| refine.max_points).filter(|_| shard.is_none());
     let points = match shard {

@@ -1,4 +1,5 @@
-//! Runs points of a sweep for about a second, and measures the work of the points and the size of their rows.
+//! Runs points of a sweep for about a second, and measures the work of these points and the size of their
+//! rows.
 
 use std::collections::BTreeSet;
 use std::sync::{Mutex, MutexGuard, PoisonError};
@@ -13,48 +14,53 @@ use flap_sweep::run::{self, Sink};
 use flap_sweep::study::survey::spread;
 use flap_sweep::table::layout::Layout;
 
-/// Largest number of points in a sample.
+/// Largest number of points in the sample that `flap check` runs.
 const MOST: usize = 256;
 
-/// Running time of the sample after which no further point is added to the sample.
+/// Time after which flap adds no further point to the sample, measured from the start of the sample.
 const LONGEST_BEGIN: Duration = Duration::from_secs(1);
 
-/// Running time of the sample after which running points are abandoned.
+/// Time limit of the sample, measured from its start. At this limit, flap abandons the points that are not
+/// finished.
 const LONGEST: Duration = Duration::from_secs(2);
 
-/// Largest number of points that are checked in the search for points that are not excluded.
+/// Largest number of points that flap checks to find points that are not excluded.
 const MOST_CHECKED: u64 = 100_000;
 
-/// Smallest relative error of an estimate, because the speed of a machine varies by this fraction.
+/// Smallest relative uncertainty that flap reports for an estimate, because the speed of a machine varies by
+/// this fraction.
 const SMALLEST_ERROR: f64 = 0.1;
 
-/// A sample of points that are spread over a plan.
+/// A sample of points that are spread over a plan, and the measurements of their work.
 ///
-/// Until the last point of the sample is done, further points keep all lanes full, as in a sweep. Without the further
-/// points, the slowest points of the sample would run alone and distort the time.
+/// Until the last point of the sample is finished, flap runs more points, so that all lanes are full as in a
+/// sweep. Otherwise the slowest points of the sample would run alone, and the measured time per point would
+/// be too long.
 pub(super) struct Trial<'a> {
     plan: &'a Plan,
     started: Instant,
     /// The time from the start to the end of the sample.
     took: Duration,
     checked: u64,
-    /// True if no more points are added to the sample.
+    /// True if flap adds no more points to the sample.
     closed: bool,
-    /// Numbers of the points of the sample that are running.
+    /// Numbers of the sample's points that are not finished.
     running: BTreeSet<u64>,
-    /// The work of each point of the sample: the number of evaluations of the equations of motion, also for derivatives.
+    /// The work of each finished point of the sample: the number of evaluations of the equations of motion,
+    /// including evaluations for derivatives.
     works: Vec<f64>,
-    /// Points that were started, points that have rows, and the work of the points with rows.
+    /// Number of started points, number of finished points, and the work of the finished points. These
+    /// numbers include points that are not in the sample.
     begun: u64,
     done: u64,
     work: f64,
-    /// Number of valid points.
+    /// Number of finished points that are valid.
     valid: u64,
     layout: Layout<'a>,
     /// The rows of the sample as CSV, and the number of rows.
     rows: CsvSink<Vec<u8>>,
     written: u64,
-    /// Index and reason of the first invalid point.
+    /// Index of the first invalid point, and the reason why this point is invalid.
     first_reason: Option<(u64, String)>,
 }
 
@@ -97,12 +103,14 @@ impl Trial<'_> {
         self.works.len()
     }
 
-    /// Returns the index and the reason of the first invalid point, if all points of the sample are invalid.
+    /// If all points of the sample are invalid, returns the index of the first point and the reason why the
+    /// point is invalid.
     pub(super) fn invalid(&self) -> Option<&(u64, String)> {
         self.first_reason.as_ref().filter(|_| self.valid == 0 && self.is_complete())
     }
 
-    /// Returns the mean work of a point and its probable relative error, for a sweep of `points` points; none if no point was run.
+    /// Returns an estimate of the mean work per point in a sweep of `points` points, and the relative
+    /// uncertainty of this estimate. The result is `None` if no point was run.
     fn mean_work(&self, points: u64) -> Option<(f64, f64)> {
         let number = self.works.len() as f64;
         let mean = self.works.iter().sum::<f64>() / number;
@@ -116,7 +124,8 @@ impl Trial<'_> {
         Some((mean, (2.0 * deviation / mean).max(SMALLEST_ERROR)))
     }
 
-    /// Returns the bounds of the likely time of a sweep of `points` points (s); none if no point was run.
+    /// Returns the bounds of the likely time of a sweep of `points` points (s). The result is `None` if no
+    /// point was run.
     pub(super) fn seconds(&self, points: u64) -> Option<[f64; 2]> {
         let (mean, error) = self.mean_work(points)?;
         // Points that are still running count as half done.
@@ -125,12 +134,12 @@ impl Trial<'_> {
         Some([seconds / (1.0 + error), seconds * (1.0 + error)])
     }
 
-    /// Returns the mean size of a row as CSV (bytes); none if no point was run.
+    /// Returns the mean size of a row as CSV (bytes). The result is `None` if no row was written.
     pub(super) fn bytes_of_row(&self) -> Option<f64> {
         (self.written > 0).then(|| self.rows.target().len() as f64 / self.written as f64)
     }
 
-    /// True if all points of the sample have rows.
+    /// Returns true if the sample is closed and all its points are finished.
     pub(super) fn is_complete(&self) -> bool {
         self.closed && self.running.is_empty()
     }
@@ -139,7 +148,7 @@ impl Trial<'_> {
         self.is_complete() || self.started.elapsed() >= LONGEST
     }
 
-    /// Returns the index in the plan of checked point `number`.
+    /// Returns the index in the plan of the point that flap checks as number `number`.
     fn index(&self, number: u64) -> u64 {
         let points = self.plan.len();
         if points <= MOST as u64 { number % points } else { spread(number, points) }
@@ -173,14 +182,15 @@ impl Trial<'_> {
         None
     }
 
-    /// Ends the sample if the sample is large enough, has all points, or took long enough.
+    /// Closes the sample if it has enough points, if it contains all points of the plan, or if it took long
+    /// enough.
     fn close(&mut self) {
         self.closed |= self.works.len() + self.running.len() >= MOST
             || self.checked >= self.plan.len()
             || self.started.elapsed() >= LONGEST_BEGIN;
     }
 
-    /// Records the row of checked point `number`, which is `point` of the plan.
+    /// Records the row of the finished point `point`, which flap checked as number `number`.
     fn done(&mut self, number: u64, point: &Point, row: Row) {
         let work = row.rhs_evals as f64;
         self.done += 1;
@@ -204,7 +214,7 @@ impl Trial<'_> {
         }
     }
 
-    /// Records checked point `number` as invalid.
+    /// Records that the point with the number `number` is invalid, if it is the first invalid point.
     fn note_invalid(&mut self, number: u64, reason: String) {
         let index = self.index(number);
         self.first_reason.get_or_insert((index, reason));
@@ -246,7 +256,7 @@ mod tests {
 
     use super::*;
 
-    /// All points of a plan, and the work for each point.
+    /// Runs all points of a plan, and adds up the work of these points.
     struct All<'a> {
         plan: &'a Plan,
         next: u64,
@@ -286,7 +296,8 @@ mod tests {
         }
     }
 
-    /// The sample does the work of the sweep, with the evaluations for derivatives.
+    /// The work of a point in the sample equals its work in a sweep, including the evaluations for
+    /// derivatives.
     #[test]
     fn derivatives_are_work() {
         let grid = "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [95, 105]\n";
@@ -310,7 +321,8 @@ mod tests {
         assert!(with > 1.1 * without, "{with} {without}");
     }
 
-    /// The time follows from the work of all points in the time of the sample, with half of the work of running points.
+    /// The estimated time is the work of the sweep divided by the speed of the sample. Each unfinished point
+    /// of the sample counts as half of the mean work.
     #[test]
     fn seconds_are_the_work_of_the_sweep_over_the_speed_of_the_sample() {
         let grid = "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [95, 105]\n";
@@ -335,8 +347,8 @@ mod tests {
         near(100, 100.0 * 200.0 * 2.0 / 1200.0, 2.0 * (0.98_f64 * 20_000.0 / 2.0).sqrt() / 200.0);
     }
 
-    /// If the sample contains all points of the plan, the only error of the estimate is the varying speed of the
-    /// machine.
+    /// If the sample contains all points of the plan, only the varying speed of the machine makes the
+    /// estimate uncertain.
     #[test]
     fn a_small_plan_is_run_as_a_whole() {
         let grid =

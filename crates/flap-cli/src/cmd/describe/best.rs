@@ -1,4 +1,4 @@
-//! The best row by a measure, and the values of the axes among the best rows.
+//! The row with the best value of a measure, and the values of the axes in the best rows.
 
 use serde::Serialize;
 
@@ -8,21 +8,21 @@ use crate::data::columns::Table;
 use crate::data::levels::{Levels, Value, Values};
 use crate::failure::Failure;
 
-/// The best row by a measure.
+/// The row with the best value of a measure.
 #[derive(Serialize)]
 pub(super) struct Best {
-    /// The measure.
+    /// Name of the measure.
     pub(super) column: String,
     pub(super) unit: String,
     /// `max` or `min`.
     pub(super) aim: &'static str,
     pub(super) value: f64,
-    /// Index of the point or of the curve.
+    /// Index of the point or of the response curve, or the number of the row in files without an index.
     pub(super) point: u64,
     pub(super) axes: Vec<Axis>,
 }
 
-/// The values of an axis: a varied parameter, or the branch of a curve.
+/// The values of an axis. An axis is a varied parameter, or the branch of a response curve.
 #[derive(Serialize)]
 pub(super) struct Axis {
     #[serde(rename = "axis")]
@@ -30,20 +30,22 @@ pub(super) struct Axis {
     pub(super) unit: String,
     /// Number of different values.
     pub(super) values: usize,
-    /// The smallest and the largest value; for words, the first and the last word.
+    /// The smallest and the largest value of the axis, or the first and the last word if the values are
+    /// words.
     pub(super) range: [Value; 2],
     /// The value of the axis in the best row.
     pub(super) best: Value,
-    /// The smallest and the largest value among the best tenth of the rows, or all words for a column of words.
+    /// The smallest and the largest value in the best tenth of the rows. If the values are words, the list
+    /// contains all words in these rows.
     pub(super) best_tenth: Vec<Value>,
-    /// True if the best value is the first or the last value of an axis with three or more numbers. False for parameters
-    /// of a sample.
+    /// True if the value in the best row is at an end of the axis, and the axis has three or more different
+    /// numbers. Always false for parameters of a sample.
     pub(super) at_the_end: bool,
 }
 
 impl Best {
-    /// Returns the best of the given rows; `None` if no row has a value. `row_numbers` contains the number of each row of
-    /// the table in the file.
+    /// Returns the best of the given rows, or `None` if no row has a value of the measure. `row_numbers`
+    /// contains, for each row of the table, the number of this row in the file.
     pub(super) fn of(
         table: &Table,
         column: usize,
@@ -74,7 +76,8 @@ impl Best {
     }
 }
 
-/// Returns the index in the first column of results, or the number of the row in other files.
+/// Returns the index of the point or response curve in the first column. If the first column contains no
+/// index, returns the number of the row in the file.
 fn point(table: &Table, row: usize, row_numbers: &[u64]) -> u64 {
     let first = &table.columns[0];
     let indices = table.numbers(0).ok().filter(|_| ["point", "curve"].contains(&first.name.as_str()));
@@ -83,9 +86,9 @@ fn point(table: &Table, row: usize, row_numbers: &[u64]) -> u64 {
 }
 
 impl Axis {
-    /// Summarizes the values of a column in all rows of the table and in the best rows.
+    /// Returns the values of an axis in all rows of the table and in the best rows.
     ///
-    /// `best` contains the positions of the best rows in the table. The first position belongs to the best row.
+    /// `best` contains the positions in the table of the best tenth of the rows, beginning with the best row.
     fn of(table: &Table, column: usize, best: &[usize], sampled: bool) -> Axis {
         let rows: Vec<usize> = (0..table.rows).collect();
         let levels = Levels::of(table, column, &rows);

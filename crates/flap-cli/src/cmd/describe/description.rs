@@ -1,4 +1,4 @@
-//! The summary of a file of results.
+//! The summary of a results file.
 
 use serde::Serialize;
 
@@ -6,7 +6,7 @@ use super::best::Best;
 use super::spread::Spread;
 use super::words::Words;
 
-/// The summary of a file of results.
+/// The summary of a results file.
 #[derive(Serialize)]
 pub(super) struct Description {
     pub(super) rows: usize,
@@ -17,7 +17,7 @@ pub(super) struct Description {
     pub(super) best: Vec<Best>,
 }
 
-/// The number of rows with a status.
+/// The number of rows with one of the statuses.
 #[derive(Serialize)]
 pub(super) struct Count {
     pub(super) status: String,

@@ -1,4 +1,4 @@
-//! Summaries as text: tables, comma-separated values, JSON.
+//! The output of `flap describe` as tables, comma-separated values or JSON.
 
 use std::fmt::Write as _;
 
@@ -14,7 +14,7 @@ use crate::data::levels::Value;
 use crate::failure::Failure;
 use crate::table::Table;
 
-/// Returns the text of a summary.
+/// Returns a summary as text in the given format.
 pub(super) fn text(description: &Description, format: OutputFormat) -> Result<String, Failure> {
     match format {
         OutputFormat::Table => Ok(page(description)),
@@ -28,7 +28,7 @@ pub(super) fn text(description: &Description, format: OutputFormat) -> Result<St
     }
 }
 
-/// The tables of a summary, from top to bottom.
+/// Returns the tables of a summary as text, one below the other.
 fn page(description: &Description) -> String {
     let mut tables = Vec::new();
     if !description.statuses.is_empty() {
@@ -72,7 +72,7 @@ fn page(description: &Description) -> String {
     tables.join("\n")
 }
 
-/// Returns a line with the best row, and a line for each axis.
+/// Returns a line with the best value of a measure, and a table with one line per axis.
 fn best(best: &Best) -> String {
     let shown = Shown::of_column(&best.column, &best.unit, [best.value]);
     let direction = if best.aim == "max" { "largest" } else { "smallest" };
@@ -117,7 +117,8 @@ fn line(axis: &Axis) -> [String; 8] {
     ]
 }
 
-/// Returns one number per line, with its table, column, axis and name.
+/// Returns the summary as comma-separated values. Each line contains one number, and the names of its table,
+/// column, axis and statistic.
 fn csv(description: &Description) -> Option<String> {
     let mut writer = csv::Writer::from_writer(Vec::new());
     let mut line = |cells: [&str; 5]| writer.write_record(cells).ok();

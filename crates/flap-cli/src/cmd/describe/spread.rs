@@ -5,7 +5,8 @@ use serde::Serialize;
 
 use crate::data::columns::Column;
 
-/// Mean, standard deviation and percentiles of the values of a column; NaN (null in JSON) if there are too few values.
+/// Mean, standard deviation and percentiles of the values of a column. A statistic is NaN (null in JSON) if
+/// the column has too few values.
 #[derive(Serialize)]
 pub(super) struct Spread {
     pub(super) column: String,
@@ -26,7 +27,7 @@ pub(super) struct Spread {
 }
 
 impl Spread {
-    /// Returns the spread of the numbers in `rows`. Empty cells are ignored.
+    /// Returns the statistics of the numbers in the given rows of a column. Empty cells are ignored.
     pub(super) fn of(column: &Column, numbers: &[f64], rows: &[usize]) -> Spread {
         let mut values: Vec<f64> =
             rows.iter().map(|&row| numbers[row]).filter(|number| !number.is_nan()).collect();
@@ -41,7 +42,7 @@ impl Spread {
         Spread { column, unit, count, mean, sd, se, min, p5, median, p95, max }
     }
 
-    /// Returns the statistics with their names.
+    /// Returns the mean, the standard deviation and the other statistics, each with its name.
     pub(super) fn statistics(&self) -> [(&'static str, f64); 8] {
         let Spread { mean, sd, se, min, p5, median, p95, max, .. } = *self;
         [

@@ -6,17 +6,17 @@ use crate::data::columns::Table;
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
-/// Largest number of different words that are counted.
+/// Largest number of different words in a column that flap counts.
 const MOST: usize = 100;
 
-/// The words of a column.
+/// The words of a column, with the number of rows of each word.
 #[derive(Serialize)]
 pub(super) struct Words {
     pub(super) column: String,
     pub(super) counts: Vec<WordCount>,
 }
 
-/// The number of rows with a word.
+/// A word, and the number of rows that contain it.
 #[derive(Serialize)]
 pub(super) struct WordCount {
     pub(super) value: String,
@@ -24,7 +24,7 @@ pub(super) struct WordCount {
 }
 
 impl Words {
-    /// Counts the words in these rows of a column of words, the most frequent word first.
+    /// Counts the words of a column in the given rows. The most frequent word is first.
     pub(super) fn of(table: &Table, column: usize, rows: &[usize]) -> Result<Words, Failure> {
         let name = table.columns[column].name.clone();
         let levels = Levels::of(table, column, rows);

@@ -6,7 +6,7 @@ mod wing;
 use crate::args::DeviceCommand;
 use crate::failure::{Exit, Failure};
 
-/// Runs a command of the group.
+/// Runs a command of the group `flap device`.
 pub(crate) fn run(command: &DeviceCommand) -> Result<Exit, Failure> {
     match command {
         DeviceCommand::New(args) => new::run(args),

@@ -12,11 +12,11 @@ use crate::cmd::point;
 use crate::console;
 use crate::failure::{Exit, Failure};
 
-/// Density of air (kg/m³) for models without a parameter for the density.
+/// Density of air (kg/m³) for models that have no parameter for the density of air.
 const AIR_DENSITY: f64 = 1.2;
 
-/// Largest relative difference between the area of the chord table and the area of the outline. A larger difference
-/// gives a note.
+/// Relative difference between the area of the chord table and the area of the outline above which flap
+/// prints a note.
 const CLOSE: f64 = 5e-3;
 
 pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {
@@ -57,7 +57,8 @@ pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Returns an error if a parameter of the wing is outside its range, as for outlines of extreme size.
+/// Returns an error if a computed parameter of the wing is outside its allowed range, for example for an
+/// outline of extreme size.
 fn check_ranges(plan: &Plan, wing: &Wing, parameters: &[(&str, f64)]) -> Result<(), Failure> {
     for (name, value) in parameters {
         let parameter = Parameter::index(plan.parameters(), name).map(|index| &plan.parameters()[index]);
@@ -80,7 +81,8 @@ fn check_ranges(plan: &Plan, wing: &Wing, parameters: &[(&str, f64)]) -> Result<
     Ok(())
 }
 
-/// Returns a note if the root of the wing is on the stroke axis, but the root of the wing of the design `base` is not.
+/// Returns a note if the wing root in `base`, the design from which flap starts, is not on the stroke axis.
+/// Without `--offset`, the root of the new wing is on the stroke axis.
 fn on_offset(plan: &Plan, base: &str) -> Option<String> {
     let index = Parameter::index(plan.parameters(), "wing_offset")?;
     let (place, remedy) = match plan.base()[index] {
@@ -109,7 +111,7 @@ fn on_offset(plan: &Plan, base: &str) -> Option<String> {
     ))
 }
 
-/// Returns a note if the area of the table of chords differs from the area of the outline.
+/// Returns a note if the area that results from the chord table differs from the area of the outline.
 fn on_area(wing: &Wing, parameters: &[(&str, f64)]) -> Option<String> {
     let is_chord = |name: &str| name.strip_prefix("chord_").is_some_and(|rest| rest.parse::<usize>().is_ok());
     let chords = parameters.iter().filter(|(name, _)| is_chord(name)).map(|(_, chord)| *chord);
@@ -129,7 +131,8 @@ fn on_area(wing: &Wing, parameters: &[(&str, f64)]) -> Option<String> {
     ))
 }
 
-/// Returns the material in the options; `None` if the options contain no material.
+/// Returns the masses of membrane and spar that the options describe, or `None` if the options describe no
+/// mass.
 fn material(args: &WingArgs) -> Result<Option<Material>, Failure> {
     let membrane = match (args.thickness, args.density) {
         (Some(thickness), Some(density)) => Some(thickness * density),

@@ -17,10 +17,10 @@ use crate::models;
 use crate::print;
 use crate::table::wrapped;
 
-/// Columns of explanations in csv and json.
+/// Columns of the output in csv and json.
 const NAMES: [&str; 4] = ["name", "kind", "models", "text"];
 
-/// Prints the meanings of names, for all models or for the model of `--model`.
+/// Prints the meanings of the given names, for all models or only for the model of `--model`.
 pub(super) fn explain(names: &[&str], args: &ModelsArgs) -> Result<(), Failure> {
     let models = match &args.model {
         None => models::all().to_vec(),
@@ -48,7 +48,8 @@ pub(super) fn explain(names: &[&str], args: &ModelsArgs) -> Result<(), Failure> 
     last.map_or(Ok(()), Err)
 }
 
-/// Returns the meanings of a name. A name may be a parameter of several models and a column of other models.
+/// Returns the meanings of a name. For example, a name can be a parameter of some models and a column of
+/// other models.
 fn meanings(name: &str, known: &[Entry], models: &[&'static dyn Simulator]) -> Result<Vec<Entry>, Failure> {
     let mut found: Vec<Entry> = known.iter().filter(|entry| entry.name == name).cloned().collect();
     if found.is_empty() {

@@ -18,7 +18,7 @@ use crate::models;
 use crate::print;
 use crate::table::{Table, wrapped};
 
-/// Returns true if the word is a model, a preset, a device file or a grid file, whose parameters can be listed.
+/// Returns true if `what` is the name of a model, a preset or a file. For these names, flap lists parameters.
 pub(super) fn is_listed(what: &str) -> bool {
     let path = Path::new(what);
     models::preset(what).is_some()
@@ -27,7 +27,8 @@ pub(super) fn is_listed(what: &str) -> bool {
         || path.is_file()
 }
 
-/// Prints the parameters and columns of a model, with the values of a preset or file.
+/// Prints the parameters and columns of a model. If `what` is a preset or a file, flap also prints the values
+/// of the parameters.
 pub(super) fn list(what: &str, args: &ModelsArgs) -> Result<(), Failure> {
     let values = Values::of(what)?;
     let entries: Vec<Entry> = parameters(&values).into_iter().chain(columns(&*values.robot)).collect();
@@ -35,7 +36,7 @@ pub(super) fn list(what: &str, args: &ModelsArgs) -> Result<(), Failure> {
     print::table(args.format, &NAMES, &rows, || head(&values.lines) + &listing(&entries, args.long))
 }
 
-/// Returns the model called `name`. If `name` is a preset, returns the model of the preset, and the preset.
+/// Returns the model called `name`, or the preset called `name` with its model.
 pub(super) fn of_name(name: &str) -> Result<(&'static dyn Simulator, Option<&'static Preset>), Failure> {
     let preset = models::preset(name).map(|(model, preset)| (model, Some(preset)));
     let found = preset.or_else(|| models::by_name(name).map(|model| (model, None)));
@@ -46,19 +47,21 @@ pub(super) fn of_name(name: &str) -> Result<(&'static dyn Simulator, Option<&'st
     })
 }
 
-/// A model with the values of its parameters, if a preset or a file gives values.
+/// A model, and the values of its parameters if they come from a preset or a file.
 struct Values {
     robot: Robot,
-    /// The first lines of the printed list.
+    /// The two lines that flap prints above the list.
     lines: [String; 2],
-    /// Values in SI units, with NaN for a parameter that is not set; `None` for a model without values.
+    /// Values of the parameters in SI units, with NaN for a parameter that is not set. `None` if the user
+    /// named only a model.
     numbers: Option<Vec<f64>>,
-    /// Indices of parameters with their standard errors.
+    /// Indices of the parameters that have a standard error, and their standard errors.
     errors: Vec<(usize, f64)>,
 }
 
 impl Values {
-    /// Returns the values of a model, a preset, a device file or the first point of a grid file.
+    /// Returns the model and the parameter values of a preset, a device file, or the first point of a grid
+    /// file. For the name of a model, the values are `None`.
     fn of(what: &str) -> Result<Values, Failure> {
         if models::preset(what).is_none() && models::by_name(what).is_none() {
             let plan = point::plan(what)?;
@@ -84,12 +87,12 @@ impl Values {
         })
     }
 
-    /// Returns true if a preset of the model has the value `value` of the parameter.
+    /// Returns true if the parameter has the value `value` in a preset of the model.
     fn is_published(&self, parameter: usize, value: f64) -> bool {
         self.robot.presets().iter().any(|preset| (preset.values)().get(parameter) == Some(&value))
     }
 
-    /// Returns the standard error of a parameter.
+    /// Returns the standard error of a parameter, if the device contains a standard error.
     fn error(&self, parameter: usize) -> Option<f64> {
         self.errors.iter().find(|(index, _)| *index == parameter).map(|(_, error)| *error)
     }
@@ -99,29 +102,30 @@ fn of_model(model: &dyn Simulator) -> String {
     format!("model {}: {}", model.name(), model.doc())
 }
 
-/// Returns the first lines of the printed list.
+/// Returns the lines above the list, wrapped to the width of the terminal.
 fn head(lines: &[String; 2]) -> String {
     lines.iter().map(|line| wrapped(line, 0) + "\n").collect::<String>() + "\n"
 }
 
-/// A parameter or a column of rows.
+/// A parameter or a column in the printed list.
 struct Entry {
-    /// Parameter, or the kind of column.
+    /// The word `parameter`, or the kind of the column, such as `measure`.
     kind: &'static str,
-    /// Title of the group.
+    /// Title of the group to which the parameter or column belongs.
     group: String,
     name: String,
-    /// Value in the preset or file, in SI units; empty if there is no value.
+    /// Value of a parameter in the preset or file, in SI units. Empty without a value.
     value: String,
-    /// Value with a unit prefix and the standard error, or only the unit if there is no value.
+    /// Value with a prefixed unit and the standard error, such as `1.52 µN·m/rad`. Without values, only the
+    /// unit.
     shown: String,
     unit: &'static str,
     symbol: &'static str,
     allowed: String,
     meaning: String,
-    /// Further sentences about a parameter.
+    /// Sentences about the symbol and the allowed values of a parameter, which flap prints with `--long`.
     more: String,
-    /// True if the value was fitted to one vehicle.
+    /// True if the value is a published value that was fitted to one vehicle.
     is_fit: bool,
 }
 
@@ -164,7 +168,7 @@ fn parameters(of: &Values) -> Vec<Entry> {
     of.robot.parameters().iter().enumerate().map(entry).collect()
 }
 
-/// Returns symbol and allowed values of a parameter.
+/// Returns sentences about the symbol and the allowed values of a parameter.
 fn more(parameter: &Parameter) -> String {
     let mut text = String::new();
     if !parameter.symbol.is_empty() {
@@ -177,7 +181,8 @@ fn more(parameter: &Parameter) -> String {
     text
 }
 
-/// Returns the columns of rows: measures, columns of designs at their resonance, and columns of every model.
+/// Returns the columns of a sweep's rows: measures, columns of sweeps with `drive_frequency = "resonance"`,
+/// and columns that every model has.
 fn columns(model: &dyn Simulator) -> Vec<Entry> {
     let entry = |kind, group: &str, name: String, unit: &'static str, meaning: String| Entry {
         kind,
@@ -207,11 +212,13 @@ fn columns(model: &dyn Simulator) -> Vec<Entry> {
     measures.chain(run).collect()
 }
 
-/// Mark after a value that was fitted to one vehicle, and the line below the parameters.
+/// Mark after a value that was fitted to one vehicle. The next constant is the explanation of the mark below
+/// the list.
 const FIT: &str = " *";
 const FITS: &str = "* This value was fitted to one vehicle. Measure or fit it for other vehicles.";
 
-/// Returns the parameters and then the columns, each below the title of its group, in lines that fit the terminal.
+/// Returns the printed list: the parameters and then the columns, in groups with titles. The lines fit the
+/// terminal.
 fn listing(entries: &[Entry], long: bool) -> String {
     let is_parameter = |entry: &&Entry| entry.kind == "parameter";
     let has_values = entries.iter().any(|entry| !entry.value.is_empty());
@@ -244,7 +251,8 @@ fn page<'e>(first: &str, second: &str, entries: impl Iterator<Item = &'e Entry>,
     table.text_within(console::width())
 }
 
-/// Returns the text up to the end of its first sentence: a full stop before a capital letter.
+/// Returns the first sentence of a text. The sentence ends at a full stop and a blank before a capital
+/// letter.
 fn first_sentence(text: &str) -> &str {
     let ends = text.match_indices(". ").map(|(end, _)| end);
     let mut ends = ends.filter(|end| text[end + 2..].starts_with(char::is_uppercase));

@@ -1,4 +1,4 @@
-//! The front of two goals: `flap optimise --points`.
+//! The Pareto front of two goals: `flap optimise --points`.
 
 use std::time::Instant;
 
@@ -44,7 +44,8 @@ pub(super) fn run(
     Ok(if is_feasible { Exit::Done } else { Exit::NotAll })
 }
 
-/// The names of the goals that are expressions, with the positions of these goals.
+/// Returns the positions and the texts of the goals that are expressions and not names of measures or
+/// parameters.
 fn expressions<'n>(plan: &Plan, names: [&'n str; 2], point: &FrontPoint) -> Vec<(usize, &'n str)> {
     let is_known = |name: &str| {
         measures(plan, &point.best).iter().any(|(known, ..)| *known == name)
@@ -53,7 +54,8 @@ fn expressions<'n>(plan: &Plan, names: [&'n str; 2], point: &FrontPoint) -> Vec<
     names.into_iter().enumerate().filter(|(_, name)| !is_known(name)).collect()
 }
 
-/// Returns the names of the columns of rows: the columns of a sweep, then the goals that are expressions.
+/// Returns the names of the columns in csv and json: the columns of a sweep, then the goals that are
+/// expressions.
 fn columns(plan: &Plan, names: [&str; 2], front: &Front) -> Vec<String> {
     let mut columns = vec!["point".to_owned()];
     columns.extend(plan.differing().map(|index| plan.parameters()[index].name.to_owned()));
@@ -67,7 +69,7 @@ fn columns(plan: &Plan, names: [&str; 2], front: &Front) -> Vec<String> {
     columns
 }
 
-/// The rows of the front, with all digits.
+/// Returns the rows of the front for csv and json, with all digits.
 fn cells(plan: &Plan, names: [&str; 2], front: &Front) -> Vec<Vec<String>> {
     let row = |(number, point): (usize, &FrontPoint)| {
         let mut row = vec![number.to_string()];
@@ -84,7 +86,7 @@ fn cells(plan: &Plan, names: [&str; 2], front: &Front) -> Vec<Vec<String>> {
     front.points.iter().enumerate().map(row).collect()
 }
 
-/// The front as a table to read: both goals and the varied parameters.
+/// Returns the front as a table for a terminal, with both goals and the varied parameters.
 fn page(plan: &Plan, names: [&str; 2], front: &Front) -> String {
     let mut headings: Vec<String> = names.map(str::to_owned).to_vec();
     headings.extend(plan.differing().map(|index| {

@@ -1,4 +1,4 @@
-//! Code for both kinds of search: for one design and for a front.
+//! Code that the search for one design and the search for a Pareto front share.
 
 use std::cell::RefCell;
 use std::num::NonZeroUsize;
@@ -13,7 +13,8 @@ use crate::failure::Failure;
 use crate::progress::Bar;
 use crate::system;
 
-/// Returns the failure of a problem with a mistake in its goal, or in --minimise or --maximise.
+/// Returns the failure for a mistake in the plan, in a goal or in a condition. If `is_smallest` is true, a
+/// mistake in the goal is in `--minimise`, otherwise in `--maximise`.
 pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemError) -> Failure {
     let goal = |goal: &Option<String>| goal.clone().unwrap_or_default();
     let place = match error.part {
@@ -27,7 +28,7 @@ pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemErr
     Failure::usage(format!("{place}: {error}")).helps(&error.help)
 }
 
-/// Returns the settings of a search.
+/// Returns the settings of the search that the command line contains.
 pub(super) fn settings(args: &OptimiseArgs) -> Settings {
     Settings {
         run: RunOptions::with_threads(args.threads),
@@ -36,8 +37,8 @@ pub(super) fn settings(args: &OptimiseArgs) -> Settings {
     }
 }
 
-/// The result of `work`. The progress counts `units`, and signals stop the work. `work` returns `None` if it was stopped,
-/// or if no computed point has a periodic motion.
+/// Runs `work` with a progress bar that counts `units`, and returns its result. A signal such as Ctrl-C stops
+/// `work`. `work` returns `None` if a signal stopped it, or if no computed point has a periodic motion.
 pub(super) fn watched<T, E>(
     args: &OptimiseArgs,
     units: &'static str,
@@ -65,7 +66,7 @@ where
     Err(failure.help(format!("`flap sweep {grid}` shows the status of each point")))
 }
 
-/// The measures of the row: name, value and unit.
+/// Returns the measures of the best design, each with name, value and unit.
 pub(super) fn measures<'p>(plan: &'p Plan, best: &Optimum) -> Vec<(&'p str, f64, &'p str)> {
     let columns = plan.rows().columns().iter().map(|column| (column.name.as_str(), column.unit));
     let own = plan.measures().iter().map(|own| (own.name.as_str(), ""));

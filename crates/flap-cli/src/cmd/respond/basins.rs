@@ -14,7 +14,7 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, assignment};
 
-/// Prints the basins of each design of a plan that follows a parameter.
+/// Prints the basins of attraction of each design of a plan that follows a parameter.
 pub(super) fn run(plan: &Plan, starts: Starts, args: &RespondArgs) -> Result<Exit, Failure> {
     let Some((along, responses)) = plan.followed().zip(Responses::of(plan)) else {
         return Err(Failure::Bug("the plan follows no parameter".to_owned()));
@@ -48,7 +48,8 @@ pub(super) fn run(plan: &Plan, starts: Starts, args: &RespondArgs) -> Result<Exi
     Ok(Exit::Done)
 }
 
-/// Returns the parameters that distinguish a design from the other designs, followed by a colon.
+/// Returns the values of the varied parameters in a design and a colon, as the beginning of a line. Empty
+/// without varied parameters.
 pub(super) fn design(plan: &Plan, curve: &Curve) -> String {
     let varied = plan.axes().varied();
     let varied = varied.map(|index| assignment(&plan.parameters()[index], curve.design.values[index]));
@@ -56,7 +57,7 @@ pub(super) fn design(plan: &Plan, curve: &Curve) -> String {
     if design.is_empty() { design } else { design + ": " }
 }
 
-/// Returns the reason if a design has no basins.
+/// If a design has no bistable band or no response, returns the reason why flap prints no basins.
 fn no_basin(parameter: &Parameter<'_>, curve: &Curve, basins: &[Basin]) -> Option<String> {
     if let Some(reason) = curve.invalid() {
         return Some(format!("no response: {reason}"));
@@ -64,7 +65,7 @@ fn no_basin(parameter: &Parameter<'_>, curve: &Curve, basins: &[Basin]) -> Optio
     basins.is_empty().then(|| format!("no value of {} with two stable orbits", parameter.name))
 }
 
-/// Returns the basins of a design as a table for a terminal.
+/// Returns the basins of attraction of a design as a table for a terminal.
 fn table(parameter: &Parameter<'_>, basins: &[Basin]) -> String {
     let mut table = Table::with_names([parameter.name, "up", "down", "other"].map(str::to_owned).into());
     for basin in basins {
@@ -79,7 +80,7 @@ fn percent(share: f64, error: f64) -> String {
     format!("{:.1} ± {:.1} %", 100.0 * share, 100.0 * error)
 }
 
-/// Returns the row of a value of the followed parameter for csv and json.
+/// Returns the row for csv and json with the basins at one value of the followed parameter.
 fn cells(plan: &Plan, curve: &Curve, basin: &Basin) -> Vec<String> {
     let varied = plan.axes().varied();
     let varied = varied.map(|index| text::value(&plan.parameters()[index], curve.design.values[index]));

@@ -16,10 +16,10 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, assignment, six_digits};
 
-/// The measure that the table in a terminal contains.
+/// The measure that the table for a terminal shows at each point of an edge.
 const STROKE: &str = "stroke_pp_deg";
 
-/// Prints the edges of each design of a plan that follows a parameter.
+/// Prints the edges of hysteresis of each design of a plan that follows a parameter.
 pub(super) fn run(plan: &Plan, second: &EdgeRange, args: &RespondArgs) -> Result<Exit, Failure> {
     let Some((along, responses)) = plan.followed().zip(Responses::of(plan)) else {
         return Err(Failure::Bug("the plan follows no parameter".to_owned()));
@@ -54,7 +54,7 @@ pub(super) fn run(plan: &Plan, second: &EdgeRange, args: &RespondArgs) -> Result
     Ok(Exit::Done)
 }
 
-/// The output for the edges of all designs of a plan.
+/// Formats the edges of the designs of a plan as text.
 struct Output<'a> {
     plan: &'a Plan,
     along: &'a Along,
@@ -62,17 +62,17 @@ struct Output<'a> {
 }
 
 impl Output<'_> {
-    /// Returns both parameters, the second parameter first.
+    /// Returns the parameter of `--edge` and the followed parameter.
     fn parameters(&self) -> [&Parameter<'_>; 2] {
         [self.second.parameter, self.along.parameter].map(|index| &self.plan.parameters()[index])
     }
 
-    /// Returns a value of a parameter with its unit.
+    /// Returns a value of a parameter as text with its unit.
     fn value(&self, parameter: usize, value: f64) -> String {
         prefixed(value, self.plan.parameters()[parameter].unit)
     }
 
-    /// Returns a line of text about a design without edges.
+    /// If a design has no edges, returns a line with the reason.
     fn no_edge(&self, curve: &Curve, edges: &Edges) -> Option<String> {
         let design = design(self.plan, curve);
         if let Some(reason) = curve.invalid() {
@@ -92,7 +92,7 @@ impl Output<'_> {
         ))
     }
 
-    /// Returns the edges of a design for a terminal: a line and a table for each edge.
+    /// Returns the edges of a design as text for a terminal, with a line and a table for each edge.
     fn text(&self, curve: &Curve, edges: &[Edge]) -> String {
         let design = design(self.plan, curve);
         let edge = |edge| {
@@ -102,7 +102,7 @@ impl Output<'_> {
         edges.iter().map(edge).collect::<Vec<_>>().join("\n")
     }
 
-    /// Returns the points of an edge as a table.
+    /// Returns the points of an edge as a table for a terminal.
     fn table(&self, edge: &Edge) -> String {
         let [second, first] = self.parameters().map(|parameter| parameter.name);
         let stroke = self.plan.rows().columns().iter().position(|column| column.name == STROKE);
@@ -121,7 +121,7 @@ impl Output<'_> {
     }
 }
 
-/// Returns a cell as text. The text is empty if the value is unknown.
+/// Returns the value of a cell as text. The text is empty for an unknown value.
 fn cell_text(cell: &Cell) -> String {
     match *cell {
         Cell::Whole(number) => number.to_string(),

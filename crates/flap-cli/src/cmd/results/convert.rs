@@ -42,7 +42,8 @@ pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Records the number and the checksums of the written rows in the sidecar.
+/// Stores the number and the checksums of the written rows in the sidecar. If the results are damaged, the
+/// sidecar keeps the checksums of the rows that were computed.
 fn note(sidecar: &mut Sidecar, rows: u64, checksums: Checksums, is_damaged: bool) {
     if is_damaged {
         // Damaged rows remain damaged in another format: the checksums are for the rows that were computed.

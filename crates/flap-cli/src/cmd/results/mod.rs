@@ -1,4 +1,4 @@
-//! `flap results`: commands on results.
+//! `flap results`: commands for results files.
 
 mod convert;
 mod merge;
@@ -9,7 +9,7 @@ mod verify;
 use crate::args::ResultsCommand;
 use crate::failure::{Exit, Failure};
 
-/// Runs a command of the group.
+/// Runs a command of the group `flap results`.
 pub(crate) fn run(command: &ResultsCommand) -> Result<Exit, Failure> {
     match command {
         ResultsCommand::Convert(args) => convert::run(args),

@@ -1,4 +1,4 @@
-//! `flap results rerun`: runs points of earlier results again with other solver settings.
+//! `flap results rerun`: runs points of earlier results again with different solver settings.
 
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::rerun::{self, RerunError, Wanted};

@@ -1,4 +1,5 @@
-//! `flap results resume`: continues an interrupted sweep, from the unfinished results and the sidecar of the results.
+//! `flap results resume`: continues an interrupted sweep. The grid comes from the sidecar of the unfinished
+//! results.
 
 use flap_sweep::files::integrity::OnDamage;
 use flap_sweep::files::results::Format;

@@ -34,7 +34,8 @@ pub(super) fn run(args: &VerifyArgs) -> Result<Exit, Failure> {
     Ok(worst)
 }
 
-/// Returns the verdict on a file as a word, a detail of the verdict, and the exit code.
+/// Compares a results file with its checksums. Returns the verdict as a word, an explanation of the verdict,
+/// and the exit code.
 fn verdict(results: &Path) -> (&'static str, String, Exit) {
     match integrity::verify(results) {
         Ok(Integrity::Sound { rows }) => ("sound", count(rows, "row"), Exit::Done),

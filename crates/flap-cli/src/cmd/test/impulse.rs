@@ -15,7 +15,7 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
 
-/// Default duration, in periods of the first mode.
+/// Default duration of the motion, in periods of the first mode.
 const CYCLES: f64 = 10.0;
 
 pub(super) fn run(args: &ImpulseArgs) -> Result<Exit, Failure> {
@@ -54,7 +54,8 @@ pub(super) fn run(args: &ImpulseArgs) -> Result<Exit, Failure> {
 /// Columns of the summary in csv and json.
 const NAMES: [&str; 4] = ["column", "value", "unit", "meaning"];
 
-/// Returns the impulse, the first mode and the peaks of the motion, in the columns [`NAMES`].
+/// Returns the summary in the columns [`NAMES`]: the impulse, the frequency of the first mode, and the peaks
+/// of the motion.
 fn summary(
     (amplitude, stroke_rate): (f64, f64),
     first: &Mode,

@@ -45,8 +45,8 @@ pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Returns the failure for a motion without pitch. If the model supports a prescribed stroke, the help line names the
-/// command for a prescribed stroke.
+/// Returns the failure for a file of a motion without a pitch column. The help line shows a command that
+/// computes the pitch of a wing with a prescribed stroke.
 fn stroke_alone(error: RecordError, plan: &Plan, args: &LiftArgs) -> Failure {
     let computes = |what: &str| {
         let motion = shell_word(&args.motion.to_string_lossy());
@@ -65,7 +65,7 @@ fn stroke_alone(error: RecordError, plan: &Plan, args: &LiftArgs) -> Failure {
 /// Columns of the summary in csv and json.
 const NAMES: [&str; 4] = ["column", "mean", "min", "max"];
 
-/// Returns mean, minimum and maximum of every column except the time, in the columns [`NAMES`].
+/// Returns the summary in the columns [`NAMES`]: mean, minimum and maximum of every column except the time.
 fn summary(forces: &Trajectory, number: fn(f64) -> String) -> Vec<Vec<String>> {
     let of_column = |(i, column): (usize, &String)| {
         let values: Vec<f64> = forces.rows.iter().map(|row| row[i]).collect();

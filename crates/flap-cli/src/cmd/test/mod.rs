@@ -10,7 +10,7 @@ mod track;
 use crate::args::TestCommand;
 use crate::failure::{Exit, Failure};
 
-/// Runs a command of the group.
+/// Runs a command of the group `flap test`.
 pub(crate) fn run(command: &TestCommand) -> Result<Exit, Failure> {
     match command {
         TestCommand::Chirp(args) => chirp::run(args),

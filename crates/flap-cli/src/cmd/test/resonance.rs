@@ -1,4 +1,4 @@
-//! `flap test resonance`: the resonances of one point, found by several methods.
+//! `flap test resonance`: the resonances of one design point, found by several methods.
 
 use flap_experiments::free::{self, FreeMotion, FreeRequest};
 use flap_experiments::spectrum::SpectrumPeak;
@@ -13,13 +13,15 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
 
-/// Number of samples of a free motion per period of the first mode.
+/// Number of samples of the free motion per period of the first mode.
 const SAMPLES: u32 = 200;
 
-/// Residual of the damped sine above which a note is printed, as a fraction of the motion.
+/// Residual of the fitted damped sine above which flap prints a note, as a fraction of the stroke (root mean
+/// square).
 const POOR_FIT: f64 = 0.1;
 
-/// Height of the second peak, relative to the highest peak, from which a note is printed.
+/// Height of the second peak of the settled stroke, divided by the highest peak, at or above which flap
+/// prints a note.
 const RIVAL: f64 = 0.95;
 
 pub(super) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
@@ -56,7 +58,8 @@ pub(super) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// One resonance. Numbers that do not apply to the method are NaN.
+/// One resonance as a line of the output. A number is NaN if the method that found the resonance does not
+/// compute this number.
 struct Line {
     name: String,
     frequency: f64,

@@ -1,4 +1,4 @@
-//! `flap test terms`: effects of the terms that the papers leave out.
+//! `flap test terms`: effects of terms that the papers leave out of the equations of motion.
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::Status;
@@ -13,8 +13,7 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::Table;
 
-/// Measures in the table, with the headers of the columns. Changes of the mean stroke are in degrees, because the mean
-/// stroke of most designs is zero.
+/// Measures whose changes the table shows, with the headings of their columns.
 const MEASURES: [(&str, &str); 6] = [
     ("stroke_pp_deg", "stroke"),
     ("stroke_mean_deg", "mean stroke"),
@@ -24,7 +23,8 @@ const MEASURES: [(&str, &str); 6] = [
     ("power_supply_mw", "supply"),
 ];
 
-/// The measure whose change is printed as a difference instead of a percentage.
+/// The measure whose change is a difference in degrees and not a percentage, because the mean stroke of most
+/// designs is zero.
 const DIFFERENCE: &str = "stroke_mean_deg";
 
 pub(super) fn run(args: &TermsArgs) -> Result<Exit, Failure> {

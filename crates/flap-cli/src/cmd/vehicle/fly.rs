@@ -1,4 +1,4 @@
-//! Flight of a vehicle over time.
+//! `flap vehicle --fly`: simulates a flight of a vehicle over time.
 
 use flap_core::simulate::Trajectory;
 use flap_sweep::notation::units;
@@ -11,7 +11,7 @@ use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::print;
 
-/// Prints the flight of a vehicle with the given values of its parameters.
+/// Simulates and prints the flight of a vehicle whose parameters have the given values.
 pub(super) fn run(
     args: &VehicleArgs,
     seconds: f64,
@@ -38,7 +38,7 @@ pub(super) fn run(
     Ok(Exit::Done)
 }
 
-/// Returns the disturbance of `--disturb`.
+/// Returns the initial velocities, angular rates and angles of the body that `--disturb` gives.
 fn disturbance(given: &[(String, String)]) -> Result<[f64; FED_BACK], Failure> {
     let mut disturbance = [0.0; FED_BACK];
     for (name, value) in given {

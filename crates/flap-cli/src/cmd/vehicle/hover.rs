@@ -1,4 +1,4 @@
-//! Damping matrix and modes of the linear model about hover, and files with the linear model.
+//! Prints the damping matrix and the modes of the linear model about hover, and writes files with this model.
 
 use std::fmt::Write as _;
 use std::io::{self, BufWriter, Write as _};
@@ -20,14 +20,15 @@ use crate::failure::Failure;
 use crate::job;
 use crate::table::{Table, four_digits, six_digits};
 
-/// Parameter that keeps the motion of the wings unchanged when the body moves.
+/// Parameter that determines whether the motion of the wings changes when the body moves.
 const RESPONSE: &str = "body_response";
 
-/// Relative size below which an entry is only a rounding error: the entry divided by the largest entries of its row and
-/// column.
+/// An entry of the damping matrix counts as zero below this fraction of the largest entries in its row and in
+/// its column.
 const ROUNDING: f64 = 1e-12;
 
-/// Returns the name and the format of an output file, before any computation.
+/// Checks the name of the file for `--export` before any computation. Returns the name and the format that
+/// its ending sets.
 pub(super) fn check_output<'p>(path: &'p Path, plan: &Plan) -> Result<(&'p Path, LinearFormat), Failure> {
     let format = LinearFormat::of(path).ok_or_else(|| {
         let failure = Failure::usage(format!("--export {}: the ending names no format", path.display()));
@@ -39,7 +40,7 @@ pub(super) fn check_output<'p>(path: &'p Path, plan: &Plan) -> Result<(&'p Path,
     Ok((path, format))
 }
 
-/// Keeps the motion of the wings unchanged when the body moves.
+/// Sets the parameter `body_response` so that the motion of the wings stays unchanged when the body moves.
 pub(super) fn freeze(chosen: &mut Chosen) -> Result<(), Failure> {
     let index = find_parameter(chosen.plan.parameters(), RESPONSE)?;
     let frozen = point::value(&chosen.plan.parameters()[index], "--frozen", "frozen")?;
@@ -47,7 +48,7 @@ pub(super) fn freeze(chosen: &mut Chosen) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Returns the targets of `--trim hover`.
+/// Returns the target values of force and torque for `--trim hover`.
 pub(super) fn targets(body: &MassProperties) -> Result<Vec<Target>, Failure> {
     hover::targets(body).ok_or_else(|| {
         let failure = Failure::usage("--trim hover: total_mass is not set");
@@ -55,7 +56,7 @@ pub(super) fn targets(body: &MassProperties) -> Result<Vec<Target>, Failure> {
     })
 }
 
-/// Writes a file with the linear model.
+/// Writes the linear model about hover to a file.
 pub(super) fn export(
     model: &LinearModel,
     path: &Path,
@@ -72,7 +73,8 @@ pub(super) fn export(
     Ok(())
 }
 
-/// Returns names and rows of the damping matrix with all digits: one row for each component.
+/// Returns the damping matrix for csv and json: the column names, and one row for each component of force and
+/// torque.
 pub(super) fn damping_cells(damping: &Matrix6<f64>) -> (Vec<String>, Vec<Vec<String>>) {
     let names = ["wrench", "unit"].into_iter().chain(STATES[..6].iter().map(|(name, _)| *name));
     (names.map(str::to_owned).collect(), damping_rows(damping, text::float))
@@ -86,7 +88,7 @@ fn damping_rows(damping: &Matrix6<f64>, number: impl Fn(f64) -> String) -> Vec<V
     (0..6).map(row).collect()
 }
 
-/// Returns the damping matrix as text.
+/// Returns the damping matrix as text for a terminal.
 pub(super) fn damping_table(damping: &Matrix6<f64>) -> String {
     // Entries that vanish by symmetry are rounding beside the other entries of their row and column.
     let tidy = Matrix6::from_fn(|i, j| {
@@ -109,7 +111,8 @@ pub(super) fn damping_table(damping: &Matrix6<f64>) -> String {
     )
 }
 
-/// Returns names and rows of the modes with all digits: one row for each real eigenvalue or pair.
+/// Returns the modes for csv and json: the column names, and one row for each real eigenvalue or pair of
+/// complex eigenvalues.
 pub(super) fn mode_cells(model: &LinearModel) -> (Vec<String>, Vec<Vec<String>>) {
     let names =
         ["mode", "eigenvalue_real", "eigenvalue_imag", "time_to_double_s", "time_to_half_s", "period_s"];
@@ -130,7 +133,7 @@ pub(super) fn mode_cells(model: &LinearModel) -> (Vec<String>, Vec<Vec<String>>)
     (names.collect(), model.hover.modes.iter().map(row).collect())
 }
 
-/// Returns the trim residual and the modes as text.
+/// Returns the trim residual and the modes as text for a terminal.
 pub(super) fn mode_table(model: &LinearModel) -> String {
     let mut page = String::new();
     let limits = model.hover.residual_limits();

@@ -1,4 +1,4 @@
-//! Parts that are the same in several outputs of `flap vehicle`.
+//! Code that several options of `flap vehicle` share.
 
 use flap_core::vehicle::Vehicle;
 use flap_sweep::notation::UserError;
@@ -6,7 +6,7 @@ use flap_sweep::notation::UserError;
 use super::super::point::Chosen;
 use crate::failure::Failure;
 
-/// Headings of force and torque components.
+/// Headings of the table columns with the three components of force and the three components of torque.
 pub(super) const HEADINGS: [&str; 6] = ["forward", "left", "up", "roll", "pitch", "yaw"];
 
 pub(super) fn title(chosen: &Chosen, vehicle: &Vehicle) -> String {
@@ -15,12 +15,12 @@ pub(super) fn title(chosen: &Chosen, vehicle: &Vehicle) -> String {
     format!("{}: a vehicle with the {wings_are} {}", chosen.title(), wings.join(", "))
 }
 
-/// Returns the failure for a mistake in the value of `option`.
+/// Returns the failure for a mistake in the value of the command-line option `option`.
 pub(super) fn refused(option: &str, error: UserError) -> Failure {
     Failure::usage(format!("{option}: {error}")).helps(error.help)
 }
 
-/// Returns the number, or zero if the number is a rounding error compared with 1 mN or 1 uN·m.
+/// Returns the number. Numbers that are rounding errors in comparison with 1 mN or 1 µN·m become zero.
 pub(super) fn tidy(number: f64) -> f64 {
     if number.abs() < 1e-12 { 0.0 } else { number }
 }

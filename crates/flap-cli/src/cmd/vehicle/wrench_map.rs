@@ -1,4 +1,5 @@
-//! `flap vehicle --wrench-map`: quadratic map of force and torque over ranges of inputs.
+//! `flap vehicle --wrench-map`: a quadratic map that computes force and torque from the inputs within given
+//! ranges.
 
 use std::sync::atomic::Ordering;
 
@@ -21,10 +22,10 @@ use crate::progress::Bar;
 use crate::system;
 use crate::table::{Table, six_digits};
 
-/// Units of the components.
+/// Units of the components of force and torque.
 const UNITS: [&str; 6] = ["mN", "mN", "mN", "uN*m", "uN*m", "uN*m"];
 
-/// Columns of the map in csv, before the columns of the components.
+/// First columns of the map in csv. The columns of the force and torque components are after these columns.
 const NAMES: [&str; 6] = ["section", "name", "unit", "from", "to", "count"];
 
 pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Result<Exit, Failure> {
@@ -54,7 +55,7 @@ pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Res
     Ok(Exit::Done)
 }
 
-/// Returns the inputs of the map with their ranges.
+/// Returns the inputs of the map, with their ranges from `--wrench-map`.
 fn inputs(args: &VehicleArgs, chosen: &Chosen) -> Result<Vec<MapInput>, Failure> {
     let mut inputs = Vec::new();
     for range in &args.wrench_map {
@@ -70,7 +71,7 @@ fn inputs(args: &VehicleArgs, chosen: &Chosen) -> Result<Vec<MapInput>, Failure>
     Ok(inputs)
 }
 
-/// Returns the name of a term, such as `bias^2`; `1` for the constant.
+/// Returns the name of a term of the polynomial, such as `bias^2`. The constant term has the name `1`.
 fn term_name(map: &WrenchMap, term: &[usize]) -> String {
     let name = |&input: &usize| map.inputs[input].name.as_str();
     match term {
@@ -113,7 +114,8 @@ fn page(map: &WrenchMap, chosen: &Chosen) -> String {
     )
 }
 
-/// Returns the map with all digits: rows of the columns [`NAMES`] and of the components.
+/// Returns the map as rows for csv, with all digits. The columns are [`NAMES`] and the components of force
+/// and torque.
 fn cells(map: &WrenchMap, chosen: &Chosen) -> Vec<Vec<String>> {
     let mut rows: Vec<Vec<String>> = Vec::new();
     let mut put = |head: [&str; 6], numbers: Vec<f64>| {
@@ -139,7 +141,7 @@ fn cells(map: &WrenchMap, chosen: &Chosen) -> Vec<Vec<String>> {
     rows
 }
 
-/// Returns the map as a JSON object, with one line per entry.
+/// Returns the map as the text of a JSON object, with one line per entry of the object.
 fn object(map: &WrenchMap, chosen: &Chosen, vehicle: &Vehicle) -> String {
     let inputs = map.inputs.iter().map(|input| {
         let parameter = &chosen.plan.parameters()[input.parameter];
@@ -175,7 +177,7 @@ fn object(map: &WrenchMap, chosen: &Chosen, vehicle: &Vehicle) -> String {
     format!("{{\n{}\n}}\n", lines.join(",\n"))
 }
 
-/// Returns the text of a value, with one line per entry for a list of lists or of objects.
+/// Returns a JSON value as text. A list of lists or of objects has one line per entry.
 fn listed(value: &Value) -> String {
     match value {
         Value::Array(entries) if entries.iter().any(|entry| entry.is_array() || entry.is_object()) => {

@@ -1,5 +1,5 @@
-//! Names that are composed of other names: columns of derivatives, and parameters and columns of vehicles and their
-//! wings.
+//! Names that consist of several parts: columns of derivatives, and names that begin with the name of a wing.
+//! This module also explains the names of vehicles.
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Rows, Simulator};
@@ -8,7 +8,7 @@ use flap_sweep::derivative::{meaning, parts};
 
 use super::entry::{Entry, of_measure, of_table};
 
-/// Returns all meanings of a composed name.
+/// Returns all meanings of a name that consists of several parts.
 pub(super) fn entries(name: &str, models: &[&'static dyn Simulator]) -> Vec<Entry> {
     let mut entries = derivative(name, models);
     if entries.is_empty() {
@@ -21,7 +21,7 @@ pub(super) fn entries(name: &str, models: &[&'static dyn Simulator]) -> Vec<Entr
     entries
 }
 
-/// Returns the meaning of a column of derivatives.
+/// If `name` is a column of derivatives, returns the meanings of this column in the models.
 fn derivative(name: &str, models: &[&'static dyn Simulator]) -> Vec<Entry> {
     let mut entries = Vec::new();
     let Some((of, by, per)) = parts(name) else { return entries };
@@ -47,14 +47,15 @@ fn wings(name: &str) -> impl Iterator<Item = &str> {
     name.match_indices('_').map(|(end, _)| &name[..end])
 }
 
-/// Returns a vehicle of a model with a left wing and its mirrored right wing.
+/// Returns a vehicle with two wings of the model: a wing called `left`, and its mirror image.
 fn vehicle(model: &'static dyn Simulator, left: &str) -> Option<Vehicle> {
     let mount = |name: &str, mirrored| Mount { name: name.to_owned(), mirrored };
     let right = if left == "right" { "other" } else { "right" };
     Vehicle::of(model, &[mount(left, false), mount(right, true)]).ok()
 }
 
-/// Adds the parameters and columns of a model's vehicles, except names that belong to one wing.
+/// Adds entries for the parameters and columns of vehicles of the model, except names that begin with the
+/// name of a wing.
 pub(super) fn of_vehicles(model: &'static dyn Simulator, entries: &mut Vec<Entry>) {
     let Some(vehicle) = vehicle(model, "left") else { return };
     let is_own = |name: &str| !["left_", "right_"].iter().any(|wing| name.starts_with(wing));
@@ -72,7 +73,7 @@ pub(super) fn of_vehicles(model: &'static dyn Simulator, entries: &mut Vec<Entry
     }
 }
 
-/// Adds the parameter and the column `name` of a vehicle's wing `wing`.
+/// Adds entries for the parameter and the column `name` of a vehicle whose wing is called `wing`.
 fn of_wing(model: &'static dyn Simulator, wing: &str, name: &str, entries: &mut Vec<Entry>) {
     let Some(vehicle) = vehicle(model, wing) else { return };
     let rest = format!(" with a wing called {wing}");

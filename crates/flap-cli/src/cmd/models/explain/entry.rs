@@ -1,4 +1,4 @@
-//! A name and its meaning.
+//! A name, such as a parameter or a column, and its meaning.
 
 use std::fmt::Write as _;
 
@@ -6,28 +6,28 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::{Column, Simulator};
 use flap_sweep::notation::text;
 
-/// A name and its meaning.
+/// A name, such as a parameter or a column, and its meaning.
 #[derive(Clone)]
 pub(super) struct Entry {
     pub(super) name: String,
-    /// The kind of the name, such as `a column of trajectories of`.
+    /// The kind of the name, such as `a measure` or `a column of motions`.
     what: String,
-    /// Models with this name; empty if the name does not depend on the model.
+    /// The models in which the name has this meaning. Empty if the name has the same meaning in all models.
     models: Vec<&'static str>,
-    /// Text that follows the list of models.
+    /// Text that flap prints after the list of models.
     rest: String,
-    /// The meaning of the name, which is printed as indented lines.
+    /// The meaning of the name, as indented lines.
     pub(super) text: String,
 }
 
 impl Entry {
-    /// Returns an entry for a name that is the same in all models.
+    /// Returns an entry for a name that has the same meaning in all models.
     pub(super) fn new(name: impl Into<String>, what: impl Into<String>, text: String) -> Entry {
         let (name, what) = (name.into(), what.into());
         Entry { name, what, models: Vec::new(), rest: String::new(), text }
     }
 
-    /// Returns an entry for a name of a model.
+    /// Returns an entry for a name of one model.
     pub(super) fn of(
         model: &'static str,
         name: impl Into<String>,
@@ -37,12 +37,12 @@ impl Entry {
         Entry { models: vec![model], ..Entry::new(name, what, text) }
     }
 
-    /// Returns the entry with a text that follows the list of models.
+    /// Returns the entry with a text that flap prints after the list of models.
     pub(super) fn with_rest(self, rest: impl Into<String>) -> Entry {
         Entry { rest: rest.into(), ..self }
     }
 
-    /// Returns the kind of the name, with the models that have the name.
+    /// Returns a text with the kind of the name and the models that have this name.
     pub(super) fn kind(&self) -> String {
         let Entry { what, models, rest, .. } = self;
         let of = match models.as_slice() {
@@ -53,15 +53,15 @@ impl Entry {
         format!("{what}{of}{rest}")
     }
 
-    /// Returns name, kind, models and text, as a row of a table.
+    /// Returns the name, its kind, the models and the meaning as a row of a table.
     pub(super) fn row(&self) -> Vec<String> {
         let Entry { name, what, models, rest, text, .. } = self;
         let lines: Vec<&str> = text.lines().map(str::trim).collect();
         vec![name.clone(), format!("{what}{rest}"), models.join(", "), lines.join("\n")]
     }
 
-    /// Adds the entry to `others`. If an entry with the same meaning exists, the models are added to the existing
-    /// entry.
+    /// Adds the entry to `others`. If `others` contains an entry with the same name and meaning, the function
+    /// adds the models to this entry.
     pub(super) fn add(self, others: &mut Vec<Entry>) {
         let same = |other: &&mut Entry| {
             (&other.name, &other.what, &other.rest, &other.text)
@@ -74,18 +74,18 @@ impl Entry {
     }
 }
 
-/// Returns meaning and unit of a column.
+/// Returns a text with the meaning and the unit of a column.
 pub(super) fn of_column(doc: &str, unit: &str) -> String {
     let unit = if unit.is_empty() { String::new() } else { format!("  unit      {unit}\n") };
     format!("  {doc}\n{unit}")
 }
 
-/// Returns meaning and unit of a measured column.
+/// Returns a text with the meaning and the unit of a measure.
 pub(super) fn of_measure(column: &Column) -> String {
     of_column(&column.doc, column.unit)
 }
 
-/// Returns meaning, unit, symbol, range and published values of a parameter.
+/// Returns a text about a parameter: its meaning, unit, symbol and range, and its values in the presets.
 pub(super) fn of_parameter(model: &dyn Simulator, index: usize, parameter: &Parameter) -> String {
     let mut page = of_table(parameter);
     if parameter.is_fitted {
@@ -99,7 +99,7 @@ pub(super) fn of_parameter(model: &dyn Simulator, index: usize, parameter: &Para
     page
 }
 
-/// Returns meaning, unit, symbol, range and group of a parameter.
+/// Returns a text about a parameter: its meaning, unit, symbol, range and group.
 pub(super) fn of_table(parameter: &Parameter) -> String {
     let mut page = format!("  {}\n", parameter.doc);
     let allowed = parameter.kind.describe();

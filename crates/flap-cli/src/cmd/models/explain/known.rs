@@ -1,4 +1,4 @@
-//! Names that are explained without parsing: parameters, columns, settings and statuses.
+//! Names that flap finds in its tables: parameters, columns, settings and statuses.
 
 use flap_core::simulate::{Simulator, SolverSettings, Status};
 use flap_sweep::notation::text;
@@ -11,7 +11,7 @@ use super::entry::{Entry, of_column, of_measure, of_parameter};
 use super::tables::TABLES;
 use crate::statuses;
 
-/// Returns all names of the given models, with the meanings of the names.
+/// Returns entries for all names of the given models, and for the names that all models have.
 pub(super) fn entries(models: &[&'static dyn Simulator]) -> Vec<Entry> {
     let mut entries: Vec<Entry> = Vec::new();
     for status in Status::ALL {
@@ -49,7 +49,7 @@ pub(super) fn entries(models: &[&'static dyn Simulator]) -> Vec<Entry> {
     entries
 }
 
-/// The settings of the solver.
+/// Returns entries for the settings of the solver.
 fn settings() -> impl Iterator<Item = Entry> {
     SolverSettings::TABLE.iter().map(|setting| {
         let value = text::setting(setting.kind, &SolverSettings::DEFAULT);
@@ -59,7 +59,7 @@ fn settings() -> impl Iterator<Item = Entry> {
     })
 }
 
-/// The parameters and columns of a model.
+/// Returns entries for the parameters and measures of a model.
 fn of_model(model: &'static dyn Simulator) -> impl Iterator<Item = Entry> {
     let parameters = model.parameters().iter().enumerate().map(move |(index, parameter)| {
         Entry::of(model.name(), parameter.name, "a parameter", of_parameter(model, index, parameter))
@@ -73,7 +73,7 @@ fn of_model(model: &'static dyn Simulator) -> impl Iterator<Item = Entry> {
     parameters.chain(columns)
 }
 
-/// The columns of a model's trajectories.
+/// Adds entries for the columns of the motions that `flap run --trajectory` writes for a model.
 fn of_trajectory(model: &'static dyn Simulator, entries: &mut Vec<Entry>) {
     let Ok(motions) = model.motions() else { return };
     for (name, doc) in motions.trajectory_columns().into_iter().zip(motions.meanings()) {

@@ -1,9 +1,9 @@
-//! Columns of tables that commands print, but that rows of results do not have.
+//! Columns that occur only in tables that commands print, not in the rows of a sweep.
 
 /// A kind of column, and the names and meanings of the columns of this kind.
 type Columns = (&'static str, &'static [(&'static str, &'static str)]);
 
-/// Columns by the command that writes them.
+/// The columns of these tables, grouped by the command that prints the table.
 pub(super) const TABLES: &[Columns] = &[
     (
         "a column of chirps (`flap test chirp`)",
