@@ -64,8 +64,8 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "edge", help_heading = EDGES)]
     pub(crate) edge_to: Option<String>,
 
-    /// Print only the cusps and ends of each edge, and the points at which PARAMETER is --edge-from plus a
-    /// multiple of VALUE [default: all computed points]
+    /// Print only the cusps, the ends of each edge, and the points where PARAMETER is --edge-from plus
+    /// multiples of VALUE [default: all computed points]
     #[arg(long, value_name = "VALUE", requires = "edge", help_heading = EDGES)]
     pub(crate) edge_step: Option<String>,
 

@@ -305,7 +305,7 @@ impl<'t> Compared<'t> {
     }
 
     /// Returns true if the comparison compares the column `name` with words. Returns false for `status` and
-    /// `branch`, whose words flap knows.
+    /// `branch`, which have a fixed list of words.
     fn is_text(&self, name: &str) -> bool {
         self.names.contains(&name) && !["status", "branch"].contains(&name)
     }

@@ -1,29 +1,30 @@
-//! Sizes of pictures: in the units of drawing, and in print.
+//! Sizes of pictures: in drawing units, in pixels, and on paper. A picture is drawn in drawing units, and 12
+//! drawing units are the size of the text.
 
 use crate::args::{PictureSize, PlotArgs};
 use crate::failure::Failure;
 
-/// The size of a picture or a panel, in the units of drawing, and the sizes of its text in the same units.
+/// The width and height of a picture or a panel, and its text sizes, in drawing units.
 ///
-/// The usual text has the size [`TEXT`].
+/// Text other than labels and titles has the size [`TEXT`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Size {
     pub(super) width: f64,
     pub(super) height: f64,
-    /// Text size of the labels of axes.
+    /// Text size of the axis labels.
     pub(super) label: u32,
     /// Text size of the title.
     pub(super) title: u32,
 }
 
-/// Text size of ticks, legends and notes, in the units of drawing.
+/// Text size of ticks, legends and notes, in drawing units.
 pub(super) const TEXT: u32 = 12;
 
-/// Width below which panels are below one another, in the units of drawing.
+/// In pictures narrower than this width (drawing units), panels are one below the other.
 const NARROW: f64 = 600.0;
 
 impl Size {
-    /// Returns true if two panels with their labels do not fit beside each other.
+    /// Returns true if the picture is too narrow for two panels side by side.
     pub(super) fn is_narrow(self) -> bool {
         self.width < NARROW
     }
@@ -32,15 +33,15 @@ impl Size {
 /// The size of a picture file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Canvas {
-    /// The size in the units of drawing.
+    /// The size in drawing units.
     pub(super) size: Size,
-    /// Pixels of a PNG.
+    /// Width and height of a PNG in pixels.
     pub(super) pixels: [u32; 2],
-    /// The size in print, if the user set a size in print.
+    /// The size on paper, if the user gave the size in a unit of length.
     pub(super) print: Option<Print>,
 }
 
-/// A size in print.
+/// The size of a picture on paper.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Print {
     /// Width and height (mm).
@@ -52,26 +53,27 @@ pub(super) struct Print {
 const MM_PER_INCH: f64 = 25.4;
 const POINTS_PER_INCH: f64 = 72.0;
 
-/// Pixels of a PNG per unit of drawing, for a size in pixels.
+/// Pixels of a PNG per drawing unit, if the user gave the size in pixels.
 const SCALE: u32 = 2;
 
-/// Size of the text in print (pt), unless the user sets it.
+/// Default size of the text on paper (pt).
 const FONT_SIZE: f64 = 8.0;
 
-/// Resolution in print (pixels per inch), unless the user sets it.
+/// Default resolution of a PNG on paper (pixels per inch).
 const DPI: f64 = 300.0;
 
-/// Smallest side of a picture, in the units of drawing.
+/// Smallest allowed width and height of a picture, in drawing units.
 const SMALLEST: f64 = 200.0;
 
-/// Largest side of a picture, in the units of drawing.
+/// Largest allowed width and height of a picture, in drawing units.
 const LARGEST: f64 = 4000.0;
 
-/// Largest number of pixels of a PNG: as many as the largest size in pixels has.
+/// Largest allowed number of pixels of a PNG. It equals the number for the largest size that the user can
+/// give in pixels.
 const MOST_PIXELS: f64 = (LARGEST * SCALE as f64) * (LARGEST * SCALE as f64);
 
 impl Canvas {
-    /// Returns the size that the user chose.
+    /// Returns the size of the picture that the options set.
     ///
     /// # Errors
     /// `Usage` if the picture is too small for its text, or if it has too many pixels.
@@ -94,7 +96,7 @@ impl Canvas {
         }
     }
 
-    /// Returns the canvas for a size in print, whose text has `font` points.
+    /// Returns the canvas for a size on paper. The text has a size of `font` points.
     fn printed(print: Print, font: f64) -> Result<Canvas, Failure> {
         let unit = font / f64::from(TEXT) * MM_PER_INCH / POINTS_PER_INCH;
         let [width, height] = print.sides.map(|side| side / unit);

@@ -1,4 +1,5 @@
-//! Effects of parameters on a measure, from derivatives and from the designs of a sample, beside each other.
+//! Pictures of the effects of parameters on a measure. The effects from derivatives and the effects from the
+//! designs of a sample are drawn as pairs of bars.
 
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
@@ -21,41 +22,43 @@ use crate::data::columns::{Cells, Table};
 use crate::failure::Failure;
 use crate::table::{self, four_digits};
 
-/// Largest number of parameters in a picture.
+/// Largest number of parameters that a picture shows.
 const MOST: usize = 20;
 
-/// The height of the two bars of a parameter, relative to the distance between two parameters.
+/// The height of a pair of bars, relative to the distance between two pairs.
 const THICK: f64 = 0.7;
 
-/// Height of the legend, in the units of drawing.
+/// Height of the legend, in drawing units.
 const LEGEND: f64 = 22.0;
 
-/// The names of the two methods, with their colours.
+/// The names and the colours of the two methods that compute effects.
 const METHODS: [(&str, &str); 2] = [("derivatives", SERIES[0]), ("sample", SERIES[1])];
 
-/// A parameter with its effects on a measure: the changes of the measure for one standard deviation of the parameter.
+/// A parameter and its effects on a measure. An effect is the change of the measure per standard deviation of
+/// the parameter.
 struct Effect {
     column: usize,
     /// Standard deviation of the parameter.
     deviation: f64,
-    /// The effect from the derivative; NaN if the derivative is missing.
+    /// The effect that is computed from the derivative. NaN if the derivative is missing.
     derivative: f64,
-    /// The effect from the least-squares line through the designs.
+    /// The effect that is computed from the least-squares line through the designs.
     sample: f64,
 }
 
-/// The effects of all parameters that vary, the largest first.
+/// The effects of all varied parameters. The parameter with the largest effect is first.
 struct Effects {
     parameters: Vec<Effect>,
     designs: usize,
-    /// Standard deviations of the measure: of the linear model of all derivatives, and of the designs.
+    /// Two standard deviations of the measure: in a linear model with all derivatives, and among the designs.
     deviations: [f64; 2],
 }
 
-/// Prints and draws the effects of the parameters on column `x`.
+/// Prints and draws the effects of the parameters on the measure in column `x`.
 ///
 /// # Errors
-/// `Usage` if no derivative of the measure is in the file or can be computed from `plan`.
+/// `Usage` if the file contains no derivatives of the measure and flap cannot compute derivatives from
+/// `plan`.
 pub(super) fn draw(
     table: &Table,
     selection: &Selection,
@@ -115,9 +118,9 @@ pub(super) fn draw(
     Ok(scene)
 }
 
-/// Draws the names of the two methods with their colours, at the top of the plot.
+/// Draws the legend at the top of the plot: the names and colours of the two methods.
 fn legend(scene: &mut Scene, frame: &ComputedLayout) {
-    /// Side of a coloured square.
+    /// Side of a coloured square in the legend.
     const SIDE: f64 = 10.0;
     let mut left = frame.margin_left + 6.0;
     let top = frame.margin_top + 5.0;
@@ -128,7 +131,7 @@ fn legend(scene: &mut Scene, frame: &ComputedLayout) {
     }
 }
 
-/// Returns the effects as a table, with all parameters together in the last line.
+/// Returns the effects as a table for a terminal. The last line is the effect of all parameters together.
 fn printed(table: &Table, selection: &Selection, found: &Effects) -> String {
     let measure = &table.columns[selection.columns.x];
     let unit = if measure.unit.is_empty() { String::new() } else { format!(" ({})", measure.unit) };
@@ -155,7 +158,7 @@ fn printed(table: &Table, selection: &Selection, found: &Effects) -> String {
     page
 }
 
-/// Computes the effects of the parameters that vary among the chosen rows.
+/// Computes the effects of the parameters that have several values in the selected rows.
 fn effects(table: &Table, selection: &Selection, plan: Option<&Plan>) -> Result<Effects, Failure> {
     let measure = selection.columns.x;
     let values = table.numbers(measure)?;
@@ -195,8 +198,8 @@ fn effects(table: &Table, selection: &Selection, plan: Option<&Plan>) -> Result<
 
 /// Returns the derivatives of the measure with respect to the varied parameters.
 ///
-/// The derivatives are the means of the columns of `[gradient]`, or derivatives at the means of the parameters. A missing
-/// derivative is NaN.
+/// The derivatives are the means of the columns of `[gradient]`. Without such columns, the function computes
+/// the derivatives at the means of the parameters. A missing derivative is NaN.
 fn slopes(
     table: &Table,
     measure: usize,
@@ -233,8 +236,8 @@ fn slopes(
     at_means(table, name(measure), varied, plan, point)
 }
 
-/// Computes the derivatives of a measure at the means of the varied parameters. The other parameters have their values
-/// in the point with the index `point`.
+/// Computes the derivatives of a measure at the means of the varied parameters. Parameters that do not vary
+/// have the values of the point with the index `point`.
 fn at_means(
     table: &Table,
     measure: &str,
@@ -282,13 +285,15 @@ fn at_means(
     Ok(varied.iter().map(|(column, _)| slope(*column).unwrap_or(f64::NAN)).collect())
 }
 
-/// Returns true if a column has several values and no gaps. Rounding in the covariance of equal values is no variation.
+/// Returns true if all cells of a column contain numbers, and two of the numbers differ. The function
+/// compares the values, because the computed covariance of equal values may differ from zero by rounding
+/// errors.
 fn is_varied(numbers: &[f64]) -> bool {
     numbers.iter().all(|number| number.is_finite())
         && scale::range(numbers.iter().copied()).is_some_and(|(low, high)| low < high)
 }
 
-/// Returns the covariance of two columns; 0 if there are fewer than two rows.
+/// Returns the covariance of two columns, or 0 if the columns have fewer than two rows.
 fn covariance(x: &[f64], y: &[f64]) -> f64 {
     let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
     let (middle_x, middle_y) = (mean(x), mean(y));

@@ -1,4 +1,4 @@
-//! Formats of picture files: SVG, and PNG.
+//! Writes pictures in the formats SVG and PNG.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ pub(super) enum Format {
     Png,
 }
 
-/// Returns the bytes of a picture.
+/// Returns the bytes of the file for a picture.
 pub(super) fn bytes(scene: Scene, format: Format, canvas: &Canvas) -> Result<Vec<u8>, String> {
     match format {
         Format::Svg => {
@@ -31,7 +31,7 @@ pub(super) fn bytes(scene: Scene, format: Format, canvas: &Canvas) -> Result<Vec
     }
 }
 
-/// Returns an SVG with its width and height in millimetres.
+/// Returns the SVG with the width and height on paper (mm) instead of pixels.
 fn with_print_size(svg: &str, scene: &Scene, print: Print) -> Result<String, String> {
     // Without the rounding errors of inches.
     let [width, height] = print.sides.map(|side| (side * 1e4).round() / 1e4);
@@ -45,7 +45,7 @@ fn with_print_size(svg: &str, scene: &Scene, print: Print) -> Result<String, Str
     Ok(svg[..start].to_owned() + &size + &svg[end..])
 }
 
-/// Returns the format for the ending of a file name.
+/// Returns the picture format that the ending of a file name sets.
 pub(super) fn format(out: &Path) -> Result<Format, Failure> {
     match ending(out).as_str() {
         "svg" => Ok(Format::Svg),
@@ -63,17 +63,19 @@ pub(super) fn format(out: &Path) -> Result<Format, Failure> {
     }
 }
 
-/// Returns the ending of a name in lower case; empty for a name without an ending.
+/// Returns the ending of a file name in lower case. The text is empty for a name without an ending.
 pub(super) fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
-/// Largest number of pixels of a picture that is drawn at double size and averaged.
+/// Largest number of pixels of a picture at double size. Larger pictures are drawn at single size and not
+/// averaged.
 const MOST_PIXELS: f64 = 1e8;
 
-/// Returns a picture as PNG.
+/// Returns the bytes of a picture in the format PNG.
 ///
-/// The picture is drawn at double size and averaged, so that lines and points are smooth.
+/// The picture is first drawn at double size, and then groups of four pixels are averaged, so that lines and
+/// points look smooth.
 fn png(mut scene: Scene, canvas: &Canvas) -> Result<Vec<u8>, String> {
     // The library rounds up, so a rounding error would add a pixel.
     const LESS: f64 = 1e-2;
@@ -97,7 +99,7 @@ fn png(mut scene: Scene, canvas: &Canvas) -> Result<Vec<u8>, String> {
     image.write(canvas.print.map(|print| print.dpi))
 }
 
-/// An image of rows of pixels with three or four bytes each.
+/// An image as rows of pixels. Each pixel has three or four bytes.
 struct Image {
     width: usize,
     height: usize,
@@ -116,7 +118,8 @@ impl Image {
         Ok(Image { width: info.width as usize, height: info.height as usize, channels, bytes })
     }
 
-    /// Rotates dark marks on a white background by a quarter turn to the left, and adds the marks to the image.
+    /// Rotates `marks`, an image with dark text on white, by a quarter turn to the left, and darkens this
+    /// image where the rotated text is.
     fn darken_rotated(&mut self, marks: &Image) {
         for row in 0..self.height.min(marks.width) {
             for column in 0..self.width.min(marks.height) {
@@ -132,7 +135,7 @@ impl Image {
         }
     }
 
-    /// Returns the image at half size. Every pixel is the mean of a square of two by two pixels.
+    /// Returns the image at half size. Every pixel is the mean of two by two pixels.
     fn halved(&self) -> Image {
         let (width, height) = (self.width / 2, self.height / 2);
         let mut bytes = Vec::with_capacity(width * height * 3);
@@ -154,12 +157,12 @@ impl Image {
         Image { width, height, channels: 3, bytes }
     }
 
-    /// Returns the red, green and blue bytes of the pixels, without opacity.
+    /// Returns the red, green and blue byte of each pixel, without the byte for opacity.
     fn rgb(&self) -> Vec<u8> {
         self.bytes.chunks(self.channels).flat_map(|pixel| pixel[..3].to_vec()).collect()
     }
 
-    /// Returns the image as PNG. `dpi` is the resolution of the image in print, in pixels per inch.
+    /// Returns the image as the bytes of a PNG. `dpi` is the resolution on paper (pixels per inch).
     fn write(&self, dpi: Option<f64>) -> Result<Vec<u8>, String> {
         let side = |length: usize| u32::try_from(length).map_err(|error| error.to_string());
         let mut png = Vec::new();
@@ -183,8 +186,8 @@ impl Image {
     }
 }
 
-/// Returns the dashes of a dashed line. The library restarts the pattern at every point, so a line of many points would be
-/// solid.
+/// If `element` is a dashed line, returns its dashes as separate lines. The drawing library restarts the
+/// dashes at every point, so that a dashed line with many points would look solid.
 fn dashes(element: Primitive) -> Vec<Primitive> {
     const ON: f64 = 7.0;
     const OFF: f64 = 5.0;
@@ -226,10 +229,11 @@ fn dashes(element: Primitive) -> Vec<Primitive> {
     pieces.into_iter().map(line).collect()
 }
 
-/// Removes the rotated text from a scene. Returns this text without rotation in a new scene, whose width is the height
-/// of the first scene.
+/// Removes the rotated text from `scene`. Returns a new scene that contains this text without rotation. The
+/// width of the new scene is the height of `scene`.
 ///
-/// The library draws rotated letters bold and without smooth edges. A quarter turn to the left moves the text to its place.
+/// The drawing library draws rotated letters bold and without smooth edges, so flap rotates the drawn text
+/// itself. A quarter turn of the new scene to the left moves the text to its position.
 fn take_rotated_text(scene: &mut Scene) -> Option<Scene> {
     let mut rotated = Scene::new(scene.height, scene.width);
     rotated.text_color.clone_from(&scene.text_color);
@@ -265,7 +269,7 @@ fn take_rotated_text(scene: &mut Scene) -> Option<Scene> {
     (!rotated.elements.is_empty()).then_some(rotated)
 }
 
-/// Returns the shift of a transformation `translate(x, y)`.
+/// Returns the shift (x, y) of an SVG transformation `translate(x, y)`.
 fn shift(transform: &str) -> Option<(f64, f64)> {
     let inside = transform.strip_prefix("translate(")?.strip_suffix(')')?;
     let (x, y) = inside.split_once([',', ' ']).unwrap_or((inside, "0"));

@@ -1,4 +1,4 @@
-//! Histograms: the number of designs over a measure, with percentiles.
+//! Histograms: the number of designs in each range of a measure, with percentiles.
 
 use flap_sweep::picture::colours::{DARK, PLAIN};
 use flap_sweep::picture::sample::{Histogram, MARKED, histogram};
@@ -15,10 +15,10 @@ use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;
 
-/// The height of a line of text in the picture.
+/// The height of a line of text in drawing units.
 const LINE: f64 = 17.0;
 
-/// Draws the histogram of column `x`.
+/// Draws the histogram of the numbers in column `x`.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let column = selection.columns.x;
     let label = table.label(column);
@@ -59,7 +59,8 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// Draws a dashed line at each percentile. The value of each percentile is above the bars, in a separate line of text.
+/// Draws a dashed line at each percentile. The values of the percentiles are written above the bars, each in
+/// its own line.
 fn marks(scene: &mut Scene, frame: &ComputedLayout, found: &Histogram, label: &Label) {
     let middle = frame.margin_left + frame.plot_width() / 2.0;
     let top = |line: usize| frame.margin_top + line as f64 * LINE;
@@ -82,7 +83,7 @@ fn marks(scene: &mut Scene, frame: &ComputedLayout, found: &Histogram, label: &L
     }
 }
 
-/// Returns the percentiles as a sentence.
+/// Returns a message with the percentiles.
 fn sentence(name: &str, designs: usize, found: &Histogram, label: &Label) -> String {
     let parts: Vec<String> = (MARKED.iter().zip(found.marked))
         .map(|(percent, value)| format!("{percent} % below {}", shown(value, label)))
@@ -90,7 +91,8 @@ fn sentence(name: &str, designs: usize, found: &Histogram, label: &Label) -> Str
     format!("{name} of {designs} designs: {}", parts.join(", "))
 }
 
-/// Returns a value with four digits and its unit. The value is already multiplied by the factor of the label.
+/// Returns a value with four digits and its unit. The caller has already multiplied the value by the factor
+/// of the label.
 fn shown(value: f64, label: &Label) -> String {
     format!("{} {}", super::label::digits(value, 4), label.unit).trim_end().to_owned()
 }

@@ -1,4 +1,4 @@
-//! Pictures of the branches of a response to a parameter that rises and falls.
+//! Pictures of the branches of a response, in which a parameter first rises and then falls.
 
 use flap_sweep::picture::branches::{BRANCHES, Comparison, Way, compared};
 use flap_sweep::picture::colours::BISTABLE;
@@ -17,20 +17,22 @@ use crate::console;
 use crate::data::columns::{Cells, Table};
 use crate::failure::Failure;
 
-/// Largest number of curves in a picture. More curves cannot be distinguished.
+/// Largest number of response curves in a picture, because the reader cannot distinguish a larger number of
+/// curves.
 const MOST_CURVES: usize = 10;
 
-/// The index of the unstable orbits in [`BRANCHES`].
+/// The index of the branch of unstable orbits in [`BRANCHES`].
 const UNSTABLE: usize = 2;
 
-/// The branches of one design, in the order of [`BRANCHES`], in the units of the picture.
+/// The response curve of one design. The points of its branches are in the order of [`BRANCHES`] and in the
+/// printed units.
 struct Curve {
     name: String,
     branches: [Vec<(f64, f64)>; 3],
     compared: Comparison,
 }
 
-/// A jump from one branch to the other branch: the ends and the colour of the jump.
+/// A jump of the motion from one stable branch to the other stable branch, which is drawn as an arrow.
 struct Jump {
     x: f64,
     from: f64,
@@ -107,7 +109,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// Returns the branches of a design, and the differences between the rising and the falling branch.
+/// Returns the branches of a design, and a comparison of the rising and the falling branch.
 fn curve(table: &Table, selection: &Selection, line: &Line, factors: (f64, f64)) -> Result<Curve, Failure> {
     let (x, y) = (table.numbers(selection.columns.x)?, table.numbers(selection.columns.y)?);
     let is_branch = words(table, "branch")?;
@@ -128,7 +130,8 @@ fn curve(table: &Table, selection: &Selection, line: &Line, factors: (f64, f64))
     Ok(Curve { name: line.name.clone(), branches, compared })
 }
 
-/// Returns a function that compares the cell of a row in column `name` with a word.
+/// Returns a function of a row and a word. The function returns true if the cell of the row in column `name`
+/// contains the word.
 fn words<'t>(table: &'t Table, name: &str) -> Result<impl Fn(usize, &str) -> bool + 't, Failure> {
     let column = table.find(name)?;
     let Cells::Words { codes, words } = &table.columns[column].cells else {
@@ -139,12 +142,13 @@ fn words<'t>(table: &'t Table, name: &str) -> Result<impl Fn(usize, &str) -> boo
 }
 
 impl Curve {
-    /// Returns the rows after which a branch jumps.
+    /// Returns the positions of the branch points after which the motion jumps.
     fn after(&self, kind: usize) -> &[usize] {
         self.compared.jumps.get(kind).map_or(&[], Vec::as_slice)
     }
 
-    /// Returns the points of a branch, with a gap at each jump, because no motion was computed inside a jump.
+    /// Returns the points of a branch with a gap at each jump, because flap computed no motion between the
+    /// two points at a jump.
     fn with_gaps(&self, kind: usize) -> Vec<(f64, f64)> {
         let mut points = Vec::new();
         for (row, point) in self.branches[kind].iter().enumerate() {
@@ -156,7 +160,8 @@ impl Curve {
         points
     }
 
-    /// Returns the jumps of a branch. A jump is halfway between the rows before and after the jump.
+    /// Returns the jumps of a branch. The arrow of a jump is halfway between the points before and after the
+    /// jump.
     fn jumps(&self, kind: usize, colour: &str) -> impl Iterator<Item = Jump> {
         let points = &self.branches[kind];
         self.after(kind).iter().map(move |&row| Jump {
@@ -169,7 +174,7 @@ impl Curve {
 }
 
 impl Jump {
-    /// Draws a thin dashed arrow.
+    /// Draws the jump as a thin dashed arrow.
     fn draw(&self, scene: &mut Scene, frame: &ComputedLayout) {
         const HEAD: f64 = 5.0;
         let (x, from, to) = (frame.map_x(self.x), frame.map_y(self.from), frame.map_y(self.to));
@@ -184,7 +189,7 @@ impl Jump {
     }
 }
 
-/// Returns the note about bands with two stable motions.
+/// Returns the note below the title about bistable bands, or `None` if there are none.
 fn bistable(bands: &[(f64, f64)], x: &Label) -> Option<String> {
     let ends = |&(low, high): &(f64, f64)| format!("{} to {}", digits(low, 6), digits(high, 6));
     let listed: Vec<String> = bands.iter().map(ends).collect();

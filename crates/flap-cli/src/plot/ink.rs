@@ -1,4 +1,4 @@
-//! Colours, lines, points and texts of pictures.
+//! Functions that draw lines, points and texts, and choose colours.
 
 use flap_sweep::notation::text::printable;
 use flap_sweep::picture::colours;
@@ -8,7 +8,8 @@ use kuva::render::layout::ComputedLayout;
 use kuva::render::plots::Plot;
 use kuva::render::render::{Primitive, Scene, TextAnchor};
 
-/// Returns the colour of line number `index` of `count`. Ordered lines go from dark to light.
+/// Returns the colour of line number `index` of `count` lines. If the lines are ordered, their colours go
+/// from dark to light.
 pub(super) fn line_colour(index: usize, count: usize, ordered: bool) -> String {
     match colours::shade(index, count) {
         Some(share) if ordered => sequential(share),
@@ -16,20 +17,20 @@ pub(super) fn line_colour(index: usize, count: usize, ordered: bool) -> String {
     }
 }
 
-/// Returns the colour at the fraction `share` of the range from the smallest to the largest value. The lightness rises
-/// evenly.
+/// Returns the colour of a value that is at the fraction `share` of the range of values. The lightness
+/// increases evenly with `share`.
 pub(super) fn sequential(share: f64) -> String {
     ColorMap::Viridis.map(share)
 }
 
-/// Returns a text for the library's labels: dollar signs, which begin formulas, and control characters, which XML forbids,
-/// are escaped or removed.
+/// Returns a text that the drawing library can use as a label. Control characters, which XML forbids, are
+/// removed, and dollar signs, which begin formulas, are escaped.
 pub(super) fn plain(text: &str) -> String {
     printable(text).replace('$', "\\$")
 }
 
-/// Returns a line through points, with gaps where there is no number. Single points, and the points of short lines, have a
-/// mark.
+/// Returns a line through points, with a gap at each point that contains NaN. A point between two gaps has a
+/// mark, and with `look.marks` all points have marks.
 pub(super) fn line(points: &[(f64, f64)], look: &Look) -> Vec<Plot> {
     let whole = |point: &(f64, f64)| point.0.is_finite() && point.1.is_finite();
     let mut plots: Vec<Plot> = Vec::new();
@@ -66,13 +67,13 @@ pub(super) fn line(points: &[(f64, f64)], look: &Look) -> Vec<Plot> {
     plots
 }
 
-/// The colour, width and dashes of a line.
+/// The name of a line in the legend, and the colour, width, dashes and marks of the line.
 pub(super) struct Look {
     pub(super) name: String,
     pub(super) colour: String,
     pub(super) width: f64,
     pub(super) dashed: bool,
-    /// True for a mark at every point.
+    /// True if the line has a mark at every point.
     pub(super) marks: bool,
 }
 
@@ -82,7 +83,7 @@ impl Look {
     }
 }
 
-/// Returns points without a line.
+/// Returns a plot of points that no line connects.
 pub(super) fn points(points: &[(f64, f64)], name: &str, colour: &str, size: f64) -> Plot {
     let mut plot = ScatterPlot::new().with_data(points.iter().copied()).with_color(colour).with_size(size);
     if !name.is_empty() {
@@ -91,16 +92,16 @@ pub(super) fn points(points: &[(f64, f64)], name: &str, colour: &str, size: f64)
     Plot::Scatter(plot)
 }
 
-/// The width of the line of a ring.
+/// The line width of the rings around points.
 pub(super) const RING_WIDTH: f64 = 0.8;
 
-/// Returns rings, through which points below stay visible.
+/// Returns a plot of rings around points. The points inside the rings stay visible.
 pub(super) fn rings(points: &[(f64, f64)], colour: &str, size: f64) -> Plot {
     let plot = ScatterPlot::new().with_data(points.iter().copied()).with_color(colour).with_size(size);
     Plot::Scatter(plot.with_marker_opacity(0.0).with_marker_stroke_width(RING_WIDTH))
 }
 
-/// Draws a dashed line between two places of a picture.
+/// Draws a dashed line between two positions of a picture.
 pub(super) fn dashes(scene: &mut Scene, from: (f64, f64), to: (f64, f64), (colour, width): (&str, f64)) {
     scene.add(Primitive::PolyLine {
         points: vec![from, to],
@@ -110,7 +111,7 @@ pub(super) fn dashes(scene: &mut Scene, from: (f64, f64), to: (f64, f64), (colou
     });
 }
 
-/// Draws a text that begins, ends or is centred at a place.
+/// Draws a text at a position. `anchor` determines whether the text begins, ends or is centred there.
 pub(super) fn text(scene: &mut Scene, (x, y): (f64, f64), content: &str, size: u32, anchor: TextAnchor) {
     let content = content.to_owned();
     scene.add(Primitive::Text { x, y, content, size, anchor, rotate: None, bold: false, color: None });
@@ -121,7 +122,7 @@ pub(super) fn rectangle(scene: &mut Scene, (x, y): (f64, f64), (width, height): 
     scene.add(Primitive::Rect { x, y, width, height, fill, stroke: None, stroke_width: None, opacity: None });
 }
 
-/// Draws the frame around the plot again, over the contents of the plot.
+/// Draws the frame around the plot again, because the contents of the plot cover the frame.
 pub(super) fn frame_lines(scene: &mut Scene, frame: &ComputedLayout) {
     scene.add(Primitive::Rect {
         x: frame.margin_left,

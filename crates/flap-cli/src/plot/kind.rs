@@ -1,31 +1,31 @@
-//! Chooses the kind and the columns of a picture.
+//! Chooses the kind of a picture and the columns that the picture shows.
 
 use super::request::Request;
 use crate::args::PictureKind;
 use crate::data::axes::Axes;
 use crate::failure::Failure;
 
-/// The kind and the columns of a picture.
+/// The kind of a picture, and the positions of the columns that the picture shows.
 pub(super) struct Columns {
     pub(super) kind: PictureKind,
-    /// Column of the horizontal axis, or the measure of a tornado.
+    /// Column on the horizontal axis, or the measure of a tornado.
     pub(super) x: usize,
-    /// Column of the vertical axis; equal to `x` in a trajectory, a histogram and a tornado.
+    /// Column on the vertical axis. In a trajectory, a histogram, a tornado and a matrix, `y` equals `x`.
     pub(super) y: usize,
-    /// Column that distinguishes the lines: each value has one line.
+    /// Column that distinguishes the lines. The picture has one line for each value of this column.
     pub(super) by: Option<usize>,
-    /// Column shown as colour.
+    /// Column that the picture shows as colour.
     pub(super) color: Option<usize>,
 }
 
 impl Columns {
-    /// Returns columns without lines and colours.
+    /// Returns the columns of a picture that has neither a column `by` nor a column `color`.
     pub(super) fn plain(kind: PictureKind, x: usize, y: usize) -> Columns {
         Columns { kind, x, y, by: None, color: None }
     }
 }
 
-/// Returns the kind and the columns of a picture: as requested, or the defaults if the user did not request them.
+/// Returns the kind and the columns of a picture. flap chooses what the user did not request.
 pub(super) fn columns(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let kind = request.args.kind.map_or_else(|| suitable(request, axes), Ok)?;
     refuse_strays(request, kind)?;
@@ -47,7 +47,7 @@ pub(super) fn columns(request: &Request, axes: &Axes) -> Result<Columns, Failure
 /// Columns of a motion over time.
 const MOTION: [&str; 3] = ["time_s", "stroke_deg", "pitch_deg"];
 
-/// Returns a kind of picture that suits the file and the requested columns.
+/// Returns the kind of picture that flap draws if the user did not give `--kind`.
 fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
     if request.branch().is_some() {
         return Ok(PictureKind::Hysteresis);
@@ -76,7 +76,8 @@ fn suitable(request: &Request, axes: &Axes) -> Result<PictureKind, Failure> {
     Ok(if lines && !colours { PictureKind::Response } else { PictureKind::Map })
 }
 
-/// Returns the kind of picture for two columns of a grid.
+/// Returns the kind of picture for the columns `x` and `y` that the user requested, if the points form a
+/// grid.
 fn of_columns(request: &Request, axes: &Axes, x: usize, y: usize) -> PictureKind {
     let is_parameter = |column: usize| (1..request.parameters_end).contains(&column);
     match (is_parameter(x), is_parameter(y)) {
@@ -90,7 +91,7 @@ fn of_columns(request: &Request, axes: &Axes, x: usize, y: usize) -> PictureKind
     }
 }
 
-/// Returns an error if an option does not apply to the kind of picture.
+/// Returns an error if the user gave an option that the kind of picture does not have.
 fn refuse_strays(request: &Request, kind: PictureKind) -> Result<(), Failure> {
     use PictureKind::{Histogram, Hysteresis, Map, Pareto, Response, Scatter, Tornado};
     if matches!(kind, Histogram | Tornado) && request.y.is_some() {
@@ -125,12 +126,13 @@ fn refuse_strays(request: &Request, kind: PictureKind) -> Result<(), Failure> {
 const NO_MEASURES: &str = "the file has no measures";
 const FEW_MEASURES: &str = "the file has too few measures";
 
-/// Returns the reason why a picture over axes cannot be drawn.
+/// Returns the reason why flap cannot choose an axis for the picture.
 fn no_values(axes: &Axes) -> &'static str {
     if axes.sampled { "a sample has no axes" } else { "no parameter has more than one value" }
 }
 
-/// Returns an error if a sample has no axis for the picture: its designs form no lines and no cells.
+/// Returns an error if the points are a sample and `columns` contains a parameter of the sample or a measure.
+/// The designs of a sample form no lines and no cells.
 fn refuse_sample(request: &Request, axes: &Axes, columns: &[usize], form: &str) -> Result<(), Failure> {
     let stray =
         columns.iter().find(|&&column| axes.members.contains(&column) || column >= request.parameters_end);
@@ -190,7 +192,8 @@ fn pareto(request: &Request) -> Result<Columns, Failure> {
     Ok(Columns { color: request.color, ..Columns::plain(PictureKind::Pareto, x, y) })
 }
 
-/// Returns the horizontal and the vertical column; by default, the cost and the benefit.
+/// Returns the columns on the horizontal and the vertical axis. By default, these columns are a cost, such as
+/// power, and a benefit, such as lift.
 fn plane(request: &Request) -> Result<(usize, usize), Failure> {
     let [benefit, cost, motion] = request.measures;
     let x = request.x.or_else(|| request.free([cost, motion, benefit], &[]));
@@ -230,7 +233,7 @@ fn hysteresis(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     Ok(Columns { by, ..Columns::plain(PictureKind::Hysteresis, x, y) })
 }
 
-/// Returns the column of the drive frequency, if the drive frequency is an axis.
+/// Returns the column of the drive frequency, if the sweep varies the drive frequency.
 fn frequency(request: &Request, axes: &Axes) -> Option<usize> {
     request.position("drive_frequency").filter(|column| axes.columns.contains(column))
 }

@@ -1,41 +1,42 @@
-//! Labels of columns, in units that suit the size of the values.
+//! Labels of columns with units that suit the size of the values, such as mm² instead of m².
 
 use flap_sweep::table::labels;
 
 use crate::data::columns::{Cells, Table};
 use crate::data::levels::{Levels, Values};
 
-/// The label of a column, and the unit in which the numbers of the column are shown.
+/// The label of a column, and the unit in which a picture shows the numbers of the column.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Label {
     /// The name of a column as text, such as `Lift, mean`.
     pub(super) words: String,
-    /// The printed unit, such as `mN` or `µN·m/rad`; empty for a column without a unit.
+    /// The unit in the picture, such as `mN` or `µN·m/rad`. Empty for a column without a unit.
     pub(super) unit: String,
-    /// The factor from the column's unit to the unit that is shown.
+    /// The factor that converts a number in the file into the unit in the picture.
     pub(super) factor: f64,
 }
 
 impl Label {
-    /// Returns the label of column `name` in `unit`, for numbers up to `largest`.
+    /// Returns the label of the column `name`, whose numbers are in `unit` and have magnitudes up to
+    /// `largest`.
     pub(super) fn new(name: &str, unit: &str, largest: f64) -> Label {
         let labels::Scale { factor, unit: shown } = labels::scale(unit, largest);
         Label { words: labels::with_unit(name, unit).words, unit: shown, factor }
     }
 
-    /// Returns the name with the unit, such as `Lift, mean (mN)`.
+    /// Returns the name of the column with the unit, such as `Lift, mean (mN)`.
     pub(super) fn text(&self) -> String {
         labels::titled(&self.words, &self.unit)
     }
 
-    /// Returns a value in the unit that is shown: `70 V`.
+    /// Returns a value as text in the unit of the picture, such as `70 V`.
     pub(super) fn value(&self, value: f64) -> String {
         format!("{} {}", short(value * self.factor), self.unit).trim_end().to_owned()
     }
 }
 
 impl Table {
-    /// Returns the label of a column, in a unit that suits its largest number.
+    /// Returns the label of a column. Its unit suits the largest number of the column.
     pub(super) fn label(&self, index: usize) -> Label {
         let column = &self.columns[index];
         let largest = match &column.cells {
@@ -50,7 +51,7 @@ impl Table {
 }
 
 impl Levels {
-    /// Returns value number `place` as text, with its unit.
+    /// Returns the distinct value number `place` as text, with its unit.
     pub(super) fn text(&self, place: usize, label: &Label) -> String {
         match &self.values {
             Values::Numbers(values) => label.value(values[place]),
@@ -59,19 +60,21 @@ impl Levels {
     }
 }
 
-/// Returns a number with at most six digits.
+/// Returns a number as text with at most six digits.
 pub(super) fn short(value: f64) -> String {
     digits(value, 6)
 }
 
-/// Returns the numbers with four digits, or with up to six digits if four digits do not distinguish the numbers.
+/// Returns the numbers as text with four digits. If neighbouring numbers then have equal texts, returns five
+/// or six digits.
 pub(super) fn distinct(values: &[f64]) -> Vec<String> {
     let texts = |most: u8| values.iter().map(|&value| digits(value, most)).collect::<Vec<_>>();
     let is_distinct = |texts: &Vec<String>| texts.windows(2).all(|two| two[0] != two[1]);
     [4, 5].map(texts).into_iter().find(is_distinct).unwrap_or_else(|| texts(6))
 }
 
-/// Returns a number with at most `most` digits, from 1 to 6. Digits before the decimal point are never dropped.
+/// Returns a number as text with at most `most` digits, where `most` is from 1 to 6. Digits before the
+/// decimal point are always kept for numbers below 1e6.
 pub(super) fn digits(value: f64, most: u8) -> String {
     if value == 0.0 || !value.is_finite() {
         return if value.is_nan() { "none".to_owned() } else { value.to_string().replace("-0", "0") };

@@ -1,4 +1,4 @@
-//! Maps: a measure as the colour of cells over two parameters.
+//! Maps: cells over two parameters, whose colours show a measure.
 
 use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
@@ -19,24 +19,24 @@ use crate::data::columns::{RefinedAxis, Table};
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
-/// Largest number of cells in a picture. More cells than pixels cannot be drawn.
+/// Largest number of cells in a picture, which is about the number of pixels of a usual picture.
 const MOST_CELLS: usize = 500_000;
 
-/// A coloured cell: its sides in the units of the picture, and its value.
+/// A coloured cell: the positions of its sides, and its value, in the units of the picture.
 struct Cell {
     x: [f64; 2],
     y: [f64; 2],
     value: f64,
 }
 
-/// Cells with their axes.
+/// The cells of a map, and the axes of the map.
 struct Grid {
     cells: Vec<Cell>,
     x: Axis,
     y: Axis,
 }
 
-/// Draws column `color` over the columns `x` and `y`.
+/// Draws the column `color` as the colour of cells over the columns `x` and `y`.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let Columns { x, y, color: Some(color), .. } = selection.columns else {
         return Err(Failure::Bug("a map without a colour".to_owned()));
@@ -75,21 +75,23 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
 }
 
 impl Grid {
-    /// Returns the grid with its axes exchanged.
+    /// Exchanges the horizontal and the vertical axis.
     fn transposed(self) -> Grid {
         let cells = self.cells.into_iter().map(|cell| Cell { x: cell.y, y: cell.x, ..cell });
         Grid { cells: cells.collect(), x: self.y, y: self.x }
     }
 }
 
-/// Returns the refined axis of a column, if the column is a refined axis.
+/// If the sweep added points along the axis of a column, returns this refined axis.
 fn axis_of(table: &Table, column: usize) -> Option<&RefinedAxis> {
     table.refined.iter().find(|axis| axis.name == table.columns[column].name)
 }
 
-/// Returns the cells of points that form no grid: every place has the colour of the nearest point.
+/// Returns the cells of a map for points that form no grid. Every position of the map has the colour of the
+/// nearest point.
 ///
-/// Distances along an axis are measured in cells between the values of the grid file.
+/// The unit of distances along an axis is the interval between neighbouring values of the axis in the grid
+/// file.
 fn nearest_cells(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Failure> {
     let columns = [selection.columns.x, selection.columns.y];
     let [across, up] = columns.map(|column| {
@@ -119,24 +121,25 @@ fn nearest_cells(table: &Table, selection: &Selection, color: usize) -> Result<G
     Ok(Grid { cells, x: across, y: up })
 }
 
-/// Number of places of a raster across and up: a little more than the pixels of a picture of the usual size.
+/// Number of raster positions in the horizontal and the vertical direction. The plot area of a usual picture
+/// has about as many pixels.
 const RASTER: [usize; 2] = [720, 480];
 
-/// Returns the position of a value along an axis, from 0 to 1.
+/// Returns the position of a value on an axis, as a fraction from 0 to 1.
 fn fraction(axis: &Axis, value: f64) -> f64 {
     let to = |value: f64| if axis.log { value.ln() } else { value };
     let (low, high) = (to(axis.range.0), to(axis.range.1));
     if high > low { (to(value) - low) / (high - low) } else { 0.5 }
 }
 
-/// Returns the value at a position along an axis, from 0 to 1.
+/// Returns the value at a position on an axis. The position is a fraction from 0 to 1.
 fn value_at(axis: &Axis, fraction: f64) -> f64 {
     let (low, high) = axis.range;
     if axis.log { low * (high / low).powf(fraction) } else { low + (high - low) * fraction }
 }
 
-/// A rectangle of a raster in which all places have the same nearest point. The rectangle includes the first column and
-/// row, but not the second column and row.
+/// A rectangle of raster positions that have the same nearest point, `owner`. The ranges of columns and rows
+/// do not include their ends.
 #[derive(Clone, Debug, PartialEq)]
 struct Rectangle {
     columns: [usize; 2],
@@ -144,8 +147,8 @@ struct Rectangle {
     owner: usize,
 }
 
-/// Joins the places of a raster that belong to the same point into rectangles. A raster has `columns` places in each
-/// row.
+/// Combines raster positions with the same nearest point into rectangles. The raster has `columns` positions
+/// per row.
 fn rectangles(owners: &[usize], columns: usize) -> Vec<Rectangle> {
     let mut done: Vec<Rectangle> = Vec::new();
     // Rectangles that may continue in the next row, by their first column.
@@ -171,7 +174,8 @@ fn rectangles(owners: &[usize], columns: usize) -> Vec<Rectangle> {
     done
 }
 
-/// Returns the cells of a grid, in which every value of `x` is combined with every value of `y`.
+/// Returns the cells of a map for points that form a grid, in which every value of `x` is combined with every
+/// value of `y`.
 fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Failure> {
     let [across, up] =
         [selection.columns.x, selection.columns.y].map(|column| side(table, selection, column));
@@ -197,10 +201,11 @@ fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Fail
     Ok(Grid { cells: values.into_iter().enumerate().map(cell).collect(), x: across.axis, y: up.axis })
 }
 
-/// Returns the cells of curves along the first of `columns`, one curve for each value of the second column.
+/// Returns the cells of a map for points that form curves. Each curve extends along the first of `columns`
+/// and has one value of the second column.
 ///
-/// The values of the first column differ from curve to curve in responses, and if only the first column is refined. The
-/// cells of a curve end halfway between the values of this curve.
+/// The values of the first column differ from curve to curve in results of `flap respond`, and if the sweep
+/// refined only the first column. The boundaries of the cells are halfway between the values of a curve.
 fn curves(table: &Table, selection: &Selection, columns: [usize; 2], color: usize) -> Result<Grid, Failure> {
     let [along, across] = columns;
     let side = side(table, selection, across)?;
@@ -229,7 +234,7 @@ fn curves(table: &Table, selection: &Selection, columns: [usize; 2], color: usiz
     Ok(Grid { cells, x: Axis::linear(label.text(), range), y: side.axis })
 }
 
-/// The boundaries of the cells along an axis, and the index of the cell of each row.
+/// The boundaries of the cells along an axis, and for each row of the table the index of its cell.
 struct Side {
     edges: Vec<f64>,
     codes: Vec<usize>,
@@ -266,8 +271,8 @@ fn several_rows(table: &Table, selection: &Selection) -> Failure {
     Failure::usage(message).help("choose one value of each of the other parameters with --where")
 }
 
-/// Returns the boundaries of the cells: halfway between neighbouring values, and at the same distance beyond the first
-/// and the last value.
+/// Returns the boundaries of the cells along an axis. A boundary is halfway between two neighbouring values,
+/// and the outer boundaries are equally far from the first and the last value.
 fn edges(values: &[f64], log: bool) -> Vec<f64> {
     let to = |value: f64| if log { value.ln() } else { value };
     let from = |place: f64| if log { place.exp() } else { place };
@@ -282,9 +287,11 @@ fn edges(values: &[f64], log: bool) -> Vec<f64> {
     std::iter::once(ends.0).chain(between).chain([ends.1]).map(from).collect()
 }
 
-/// Returns the cells as rectangles. Neighbours overlap a little, so that no background is visible between them.
+/// Returns the cells as coloured rectangles. Neighbouring rectangles overlap slightly, so that no background
+/// is visible between them.
 ///
-/// `ends` has the right and the lower end of the axes. No cell extends beyond the ends of the axes.
+/// `ends` contains the value at the right end of the horizontal axis and at the lower end of the vertical
+/// axis. Rectangles do not extend beyond these ends.
 fn drawn(cells: &[Cell], ends: (f64, f64), frame: &ComputedLayout, shades: &Shades) -> Primitive {
     let (mut x, mut y, mut w, mut h, mut fills) = (vec![], vec![], vec![], vec![], vec![]);
     for cell in cells {

@@ -1,4 +1,5 @@
-//! The control matrix of a vehicle: numbers on colours that show their relative size.
+//! Pictures of the control matrix of a vehicle: each cell contains a number, and its colour shows the
+//! relative size of the number.
 
 use flap_sweep::picture::colours::MISSING;
 use flap_sweep::table::labels;
@@ -17,22 +18,25 @@ use super::shades::{self, Shades};
 use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::failure::Failure;
 
-/// Names of the columns of force and torque.
+/// Headings of the columns for the components of force and torque.
 const NAMES: [&str; 6] = ["forward", "left", "up", "roll", "pitch", "yaw"];
 
-/// Fraction of an input's largest change below which a change is drawn as nearly zero.
+/// A change is written as "≈0" if it is smaller than this fraction of the largest change that the same input
+/// causes.
 const LEAST: f64 = 1e-3;
 
-/// Fraction of an input's largest change above which the colour is dark and the number is white.
+/// A cell is dark, and its number is white, if the change is larger than this fraction of the largest change
+/// of the same input.
 const DARK: f64 = 0.6;
 
-/// Smallest width of a cell, which the names of the components need.
+/// Smallest width of a cell of the matrix. The names of the force and torque components do not fit into
+/// narrower cells.
 const NARROWEST: f64 = 54.0;
 
-/// The font size of the numbers.
+/// The font size of the numbers in the cells.
 const SIZE: u32 = 12;
 
-/// Draws the change of force and torque per unit of each input.
+/// Draws the changes of force and torque per unit of each input.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let inputs = words(table, INPUT)?;
     let units = words(table, "unit")?;
@@ -97,7 +101,8 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// A cell: the change of a component, and the change as a fraction of the input's largest change.
+/// A cell of the matrix: the change of a component of force or torque, and this change as a fraction of the
+/// input's largest change.
 struct Cell {
     sides: [f64; 2],
     ends: [f64; 2],
@@ -126,7 +131,8 @@ impl Cell {
         });
     }
 
-    /// Returns the change as text with three digits, or with fewer digits if the cell is small.
+    /// Returns the change as text with three digits, or with two digits and an exponent if the cell is
+    /// narrow.
     fn text(&self) -> String {
         let Cell { sides, change, share, .. } = *self;
         if change.is_nan() {
@@ -142,13 +148,14 @@ impl Cell {
     }
 }
 
-/// Returns the name of an input with its unit, which is the denominator of the changes.
+/// Returns the name of an input with its unit, such as `Bias, per V`, because the changes are per unit of the
+/// input.
 fn name(input: &str, unit: &str) -> String {
     let words = labels::with_unit(input, unit);
     if words.unit.is_empty() { words.words } else { format!("{}, per {}", words.words, words.unit) }
 }
 
-/// Returns the words of a column, or `None` for each row of a column without words.
+/// Returns the word in each row of a column, or empty texts if the column contains no words.
 fn words(table: &Table, column: &str) -> Result<Vec<String>, Failure> {
     let text = |code: &u32, words: &[String]| {
         if *code == NO_WORD { String::new() } else { words[*code as usize].clone() }

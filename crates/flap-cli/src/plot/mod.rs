@@ -105,14 +105,15 @@ fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failu
     }
 }
 
-/// Returns the heading: the text of `--title`, or the name of the results file. Control characters, which XML forbids,
-/// are removed.
+/// Returns the heading of the picture: the text of `--title`, or the name of the results file. Control
+/// characters are removed, because XML forbids them.
 fn heading(args: &PlotArgs) -> String {
     let name = || args.results.file_name().map(|name| name.to_string_lossy().into_owned());
     printable(&args.title.clone().or_else(name).unwrap_or_default())
 }
 
-/// Returns the name of the file for a picture of `results`, in the working directory.
+/// Returns the default name of the picture file: the name of `results` with the ending `.svg`, in the working
+/// directory.
 fn default_name(results: &Path) -> PathBuf {
     let name = results.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
     let (stem, _) = Format::split_ending(&name);
@@ -129,7 +130,7 @@ fn require_html(html: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Writes a complete file or no file.
+/// Writes a file. After an error, no incomplete file remains.
 fn write(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
     let written = job::make(path, force, |mut file| file.write_all(bytes).map(|()| None))?;
     written.map_err(|error: std::io::Error| Failure::cannot_write(path, &error))

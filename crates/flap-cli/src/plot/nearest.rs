@@ -1,11 +1,12 @@
-//! Cells of a map whose points form no grid: each place has the colour of the nearest point.
+//! Search for the nearest point, for maps whose points form no grid. In such a map, each position has the
+//! colour of the nearest point.
 
-/// Returns for each place of a raster the index of the nearest point. If several points are equally near, returns the
-/// first of these points.
+/// Returns, for each position of a raster, the index of the nearest point. If several points are equally
+/// near, the first of these points counts.
 ///
-/// `points` are in the unit square. The places are the middles of `columns` times `rows` equal cells of the square, row
-/// by row from the bottom. `weights` are the factors of horizontal and vertical distances. Without points the result is
-/// empty.
+/// `points` are in the unit square. The raster positions are the middles of `columns` times `rows` equal
+/// cells of the square, row by row from the bottom. The function multiplies horizontal and vertical distances
+/// by `weights`. Without points the result is empty.
 pub(super) fn nearest(points: &[[f64; 2]], weights: [f64; 2], [columns, rows]: [usize; 2]) -> Vec<usize> {
     if points.is_empty() {
         return Vec::new();
@@ -16,11 +17,12 @@ pub(super) fn nearest(points: &[[f64; 2]], weights: [f64; 2], [columns, rows]: [
     places.map(|(row, column)| buckets.nearest([middle(column, columns), middle(row, rows)])).collect()
 }
 
-/// Points, grouped by the square that contains them.
+/// Points in groups: the unit square is divided into small squares, and each group contains the points in one
+/// small square.
 struct Buckets<'p> {
     points: &'p [[f64; 2]],
     weights: [f64; 2],
-    /// Number of squares along each side.
+    /// Number of small squares along each side of the unit square.
     side: usize,
     squares: Vec<Vec<usize>>,
 }
@@ -36,7 +38,7 @@ impl Buckets<'_> {
         buckets
     }
 
-    /// Returns the number of the square with a coordinate.
+    /// Returns the column or row of the small square that contains a coordinate.
     fn square(&self, coordinate: f64) -> usize {
         #[expect(
             clippy::cast_possible_truncation,
@@ -70,7 +72,7 @@ impl Buckets<'_> {
         best.1
     }
 
-    /// Returns the squares at a distance of `ring` squares from a square.
+    /// Returns the small squares that form a ring around a given square, at a distance of `ring` squares.
     fn ring(&self, [x, y]: [usize; 2], ring: usize) -> impl Iterator<Item = usize> + '_ {
         let span = move |middle: usize| middle.saturating_sub(ring)..=(middle + ring).min(self.side - 1);
         let is_on_ring = move |column: usize, row: usize| column.abs_diff(x).max(row.abs_diff(y)) == ring;

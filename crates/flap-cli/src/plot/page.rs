@@ -1,5 +1,5 @@
-//! A page for a browser, on which users choose columns, filter rows and read values. The page contains the rows, the
-//! code and the style.
+//! The HTML page of results, on which users choose columns, filter rows and read values. The page contains
+//! the rows, the code and the style.
 
 mod data;
 
@@ -18,10 +18,12 @@ use crate::data::levels::Value;
 use crate::data::source::Source;
 use crate::failure::Failure;
 
-/// Largest number of rows in a page. A browser draws all rows many times while the user drags.
+/// Largest number of rows in a page, because a browser draws all rows many times while the user moves the
+/// mouse.
 const MOST_ROWS: usize = 1 << 17;
 
-/// Returns the page of results. If `is_verbose` is true, prints warnings about the results to stderr.
+/// Returns the HTML page of a results file. If `is_verbose` is true, prints warnings about the results to
+/// stderr.
 pub(super) fn page(args: &PlotArgs, heading: &str, is_verbose: bool) -> Result<String, Failure> {
     let source = Source::open(&args.results, &args.read, is_verbose)?;
     let request = Request::of(&source, args)?;
@@ -37,7 +39,8 @@ pub(super) fn page(args: &PlotArgs, heading: &str, is_verbose: bool) -> Result<S
     Ok(flap_live::page::results(heading, &data))
 }
 
-/// Returns the first view of the page: the picture with the same arguments, if the arguments give a picture.
+/// Returns the first view of the page. It is the picture that `flap plot` would draw with the same arguments,
+/// if such a picture is possible.
 fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Result<Start, Failure> {
     let filters = (request.filters.iter())
         .map(|(column, text)| Ok((request.name(*column).to_owned(), filter(table, *column, text)?)))
@@ -93,7 +96,7 @@ fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Resu
     Ok(Start { kind, x: columns.x, y, by, color: columns.color, best, filters })
 }
 
-/// Returns the value of a condition as the file contains it.
+/// Returns the value of a condition `COLUMN=VALUE` in the form that the file contains.
 fn filter(table: &Table, column: usize, text: &str) -> Result<Value, Failure> {
     let rows = slices::filtered(table, &[(column, text.to_owned())])?;
     Ok(match &table.columns[column].cells {

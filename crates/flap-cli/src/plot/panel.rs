@@ -1,4 +1,4 @@
-//! Panels: a pair of axes with plots, title and legend.
+//! Panels of a picture. A panel is a pair of axes with plots, title and legend.
 
 use std::sync::Arc;
 
@@ -17,30 +17,31 @@ pub(super) struct Axis {
     pub(super) label: String,
     pub(super) range: (f64, f64),
     pub(super) log: bool,
-    /// The words at the positions 0, 1, 2, … of the axis; empty for an axis of numbers.
+    /// The words at the positions 0, 1, 2, … of the axis. Empty for an axis of numbers.
     pub(super) words: Vec<String>,
-    /// The names of lines or columns at 1, 2, 3, …; empty for an axis of numbers.
+    /// The names of rows or columns at the positions 1, 2, 3, … of the axis. Empty for an axis of numbers.
     pub(super) categories: Vec<String>,
 }
 
-/// A pair of axes with plots.
+/// A pair of axes with plots, title and legend.
 pub(super) struct Panel {
     pub(super) title: String,
-    /// Smaller text below the title, about slices and missing values.
+    /// Small texts below the title, for example about chosen values of axes and about missing values.
     pub(super) notes: Vec<String>,
     pub(super) x: Axis,
     pub(super) y: Axis,
     pub(super) plots: Vec<Plot>,
-    /// Heading of the legend, if the legend has a heading.
+    /// Heading of the legend. The text is empty for a legend without a heading, and `None` means that the
+    /// panel has no legend.
     pub(super) legend: Option<String>,
-    /// True if there is space on the right for a colour bar.
+    /// True if the panel has space for a colour bar on the right.
     pub(super) bar: bool,
 }
 
-/// The mean width of a letter, relative to the font size.
+/// The mean width of a letter as a fraction of the font size.
 pub(super) const LETTER: f64 = 0.56;
 
-/// Returns the number of letters of a font size that fit into a width.
+/// Returns the number of letters with the font size `size` that fit into a line of the given width.
 fn letters(width: f64, size: f64) -> usize {
     #[expect(
         clippy::cast_possible_truncation,
@@ -57,19 +58,20 @@ impl Axis {
         Axis { label, range, log: false, words: Vec::new(), categories: Vec::new() }
     }
 
-    /// Returns an axis of words, which are at the positions 0, 1, 2, ….
+    /// Returns an axis with words at the positions 0, 1, 2, ….
     pub(super) fn of_words(label: String, words: Vec<String>) -> Axis {
         let range = (-0.5, words.len() as f64 - 0.5);
         Axis { words, ..Axis::linear(label, range) }
     }
 
-    /// Returns an axis with a name at 1, 2, 3, …; the ends are `margin` beyond the first and the last name.
+    /// Returns an axis with names at the positions 1, 2, 3, …. The axis begins `margin` before the first name
+    /// and ends `margin` after the last name.
     pub(super) fn of_categories(label: String, categories: Vec<String>, margin: f64) -> Axis {
         let range = (1.0 - margin, categories.len() as f64 + margin);
         Axis { categories, ..Axis::linear(label, range) }
     }
 
-    /// Returns the word at the position `value` of an axis; an empty text between two words.
+    /// Returns the word at the position `value` of an axis, or an empty text if no word is at this position.
     fn word(words: &[String], value: f64) -> String {
         let at = |place: &usize| (*place as f64 - value).abs() < 1e-6;
         (0..words.len()).find(at).map_or_else(String::new, |place| words[place].clone())
@@ -77,12 +79,12 @@ impl Axis {
 }
 
 impl Panel {
-    /// Returns a panel without headings, legend and colour bar.
+    /// Returns a panel without title, notes, legend and colour bar.
     pub(super) fn new(x: Axis, y: Axis, plots: Vec<Plot>) -> Panel {
         Panel { title: String::new(), notes: Vec::new(), x, y, plots, legend: None, bar: false }
     }
 
-    /// Returns the library's description of the panel in a picture of `size`.
+    /// Returns the layout of the panel in a picture of `size`, in the form that the drawing library requires.
     pub(super) fn layout(&self, size: Size) -> Layout {
         // The margins on the left and on the right depend on the texts, but not on the lines of labels and headings.
         let frame = ComputedLayout::from_layout(&self.unwrapped(size));
@@ -105,7 +107,7 @@ impl Panel {
             .with_y_label_wrap(letters(upright, label))
     }
 
-    /// Returns the layout without line breaks and ticks.
+    /// Returns the layout before line breaks in long texts, and ticks, are added.
     fn unwrapped(&self, size: Size) -> Layout {
         let mut layout = Layout::auto_from_plots(&self.plots)
             .with_width(size.width)
@@ -152,13 +154,14 @@ impl Panel {
         layout
     }
 
-    /// Returns the panel as a picture.
+    /// Draws the panel with the layout of [`Panel::layout`].
     pub(super) fn scene(self, size: Size) -> Scene {
         let layout = self.layout(size);
         self.scene_in(layout)
     }
 
-    /// Returns the panel in `layout`, which is [`Panel::layout`] with additions.
+    /// Draws the panel with the given layout, which is the result of [`Panel::layout`] with additions of the
+    /// caller.
     pub(super) fn scene_in(mut self, layout: Layout) -> Scene {
         if self.plots.is_empty() {
             // Without data, the library draws no ticks.
@@ -169,7 +172,7 @@ impl Panel {
     }
 }
 
-/// Adds the ticks of an axis of this length.
+/// Adds the ticks of an axis to the layout. `length` is the length of the axis in the picture.
 fn with_ticks(layout: Layout, axis: &Axis, across: bool, length: f64) -> Layout {
     let range = axis.range;
     let step = if axis.log || !axis.words.is_empty() { 1.0 } else { step(range, across, length) };
@@ -189,12 +192,12 @@ fn with_ticks(layout: Layout, axis: &Axis, across: bool, length: f64) -> Layout 
     }
 }
 
-/// Returns the distance of ticks whose numbers do not overlap along an axis of this length; if possible, there are two ticks or
-/// more.
+/// Returns a distance between ticks at which the numbers of the ticks do not overlap. If possible, the axis
+/// has at least two ticks.
 fn step(range: (f64, f64), across: bool, length: f64) -> f64 {
-    /// Space between two numbers.
+    /// Smallest space between the numbers of two ticks.
     const GAP: f64 = 10.0;
-    /// Height of a number with the space above it, relative to the font size.
+    /// Height of a number and the space above the number, relative to the font size.
     const LINE: f64 = 1.4;
     let text = f64::from(TEXT);
     let rough: f64 = if across { length / 75.0 } else { length / 52.0 };
@@ -215,8 +218,8 @@ fn step(range: (f64, f64), across: bool, length: f64) -> f64 {
     }
 }
 
-/// The width of a digit, relative to the font size.
+/// The width of a digit as a fraction of the font size.
 pub(super) const DIGIT: f64 = 0.64;
 
-/// The width of a colour bar with its ticks and label.
+/// The width of the margin for a colour bar with its ticks and label.
 pub(super) const BAR_MARGIN: f64 = 118.0;

@@ -1,4 +1,5 @@
-//! Pareto pictures: two measures of every design, and the designs for which no other design is better in both measures.
+//! Pictures of Pareto fronts: two measures of every design, and the front. No other design is better in both
+//! measures than a design on the front.
 
 use flap_sweep::picture::colours::{DARK, PLAIN};
 use kuva::plot::legend::{LegendEntry, LegendShape};
@@ -19,16 +20,17 @@ use crate::console;
 use crate::data::columns::Table;
 use crate::failure::Failure;
 
-/// Largest number of corners of a front that have rings. More rings would merge and hide the colours below.
+/// Largest number of points on a front that are drawn with rings. A larger number of rings would overlap and
+/// hide the colours of the points.
 const MOST_RINGS: usize = 40;
 
-/// The width of the front's line.
+/// The width of the line that shows the front.
 const WIDTH: f64 = 1.0;
 
-/// The radius of a ring.
+/// The radius of the rings around points on the front.
 const RING: f64 = 4.0;
 
-/// Draws column `y` over column `x`, with the front.
+/// Draws column `y` over column `x` as points, and the Pareto front as a line.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let designs = Points::of(table, selection)?;
     let (x_aim, y_aim) = selection.aims;
@@ -81,7 +83,7 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// Returns the legend, with the same marks as in the picture.
+/// Returns the entries of the legend, with the same marks as in the picture.
 fn entries(front: &str) -> Vec<LegendEntry> {
     let entry = |label: &str, color: &str, shape: LegendShape| LegendEntry {
         label: ink::plain(label),
@@ -95,7 +97,8 @@ fn entries(front: &str) -> Vec<LegendEntry> {
     ]
 }
 
-/// Makes the front's line in the legend as thin as in the picture, with a ring if `has_rings` is true.
+/// Changes the line of the front in the legend so that it is as thin as in the picture. If `has_rings` is
+/// true, the line also gets a ring.
 fn trace_in_legend(scene: &mut Scene, frame: &ComputedLayout, has_rings: bool) {
     let right = frame.margin_left + frame.plot_width();
     let centre = scene.elements.iter_mut().rev().find_map(|element| match element {
@@ -118,12 +121,12 @@ fn trace_in_legend(scene: &mut Scene, frame: &ComputedLayout, has_rings: bool) {
     }
 }
 
-/// Returns a label with the better direction.
+/// Returns the label of an axis with the words "more is better" or "less is better".
 fn aimed(label: &Label, aim: Aim) -> String {
     format!("{}, {} is better", label.text(), if aim == Aim::Max { "more" } else { "less" })
 }
 
-/// Returns the boundary of the values that designs reach, with a step at each corner.
+/// Returns the line that shows the front: a staircase through `corners`, the points on the front.
 fn steps(corners: &[(f64, f64)], x_aim: Aim) -> Vec<(f64, f64)> {
     let mut line: Vec<(f64, f64)> = corners.first().copied().into_iter().collect();
     for two in corners.windows(2) {
@@ -133,10 +136,10 @@ fn steps(corners: &[(f64, f64)], x_aim: Aim) -> Vec<(f64, f64)> {
     line
 }
 
-/// Returns the points that no other point dominates, in rising order of the first number.
+/// Returns the indices of the points that no other point dominates, in rising order of the first coordinate.
 ///
-/// One point dominates another point if both numbers are at least as good and one number is better. Points with NaN are
-/// ignored.
+/// A point dominates another point if both its coordinates are at least as good and one of them is better.
+/// Points with NaN are ignored.
 fn front(points: &[(f64, f64)], aims: (Aim, Aim)) -> Vec<usize> {
     // From here on, larger values are better in both numbers.
     let score = |value: f64, aim: Aim| if aim == Aim::Max { value } else { -value };
@@ -174,7 +177,7 @@ mod tests {
         assert_eq!(steps(&corners, Aim::Max), [(1.0, 1.0), (1.0, 3.0), (2.0, 3.0)]);
     }
 
-    /// Compares every pair of points, as in the definition of dominance.
+    /// Computes the front from its definition, by a comparison of every pair of points.
     fn brute_force(points: &[(f64, f64)], aims: (Aim, Aim)) -> Vec<usize> {
         let at_least = |a: f64, b: f64, aim: Aim| if aim == Aim::Max { a >= b } else { a <= b };
         let dominates =
@@ -185,7 +188,7 @@ mod tests {
             .collect()
     }
 
-    /// Returns points from a small grid, so that many points have equal numbers.
+    /// Returns random points with few different coordinates, so that many points have equal coordinates.
     fn points(count: usize, seed: u64) -> Vec<(f64, f64)> {
         let mut state = seed;
         let mut next = || {

@@ -1,4 +1,4 @@
-//! The request of the user, as columns of the file.
+//! The picture that the user requested, with columns as positions in the file.
 
 use flap_sweep::derivative;
 use flap_sweep::picture::measures::{Role, usual};
@@ -9,17 +9,17 @@ use crate::data::columns;
 use crate::data::source::Source;
 use crate::failure::Failure;
 
-/// Columns that some kinds of pictures require.
+/// Columns that flap always reads, because some kinds of pictures require them.
 const NEEDED: [&str; 7] =
     ["time_s", "stroke_deg", "pitch_deg", "stroke_rate_rad_s", "pitch_rate_rad_s", "branch", "bistable"];
 
-/// The column with the names of inputs in the output of `flap vehicle`.
+/// The name of the column that contains the names of the inputs in the output of `flap vehicle`.
 pub(super) const INPUT: &str = "input";
 
-/// The name of the row of means in the column of inputs.
+/// The word in the column `input` of the row that contains the mean force and torque.
 pub(super) const MEAN: &str = "mean";
 
-/// The request of the user, as columns of the file.
+/// The picture that the user requested, with columns as positions in the file.
 pub(super) struct Request<'a> {
     pub(super) args: &'a PlotArgs,
     names: Vec<String>,
@@ -27,22 +27,22 @@ pub(super) struct Request<'a> {
     pub(super) y: Option<usize>,
     pub(super) by: Option<usize>,
     pub(super) color: Option<usize>,
-    /// Columns that must have a given value, with this value.
+    /// The columns and values of the conditions `COLUMN=VALUE`.
     pub(super) filters: Vec<(usize, String)>,
-    /// Axes over which the best rows are drawn.
+    /// The axes of `--best-over`.
     pub(super) best_over: Vec<usize>,
-    /// The columns 1 to `parameters_end`, exclusive, are parameters. This column is `branch` or `status`; 0 if the file has
-    /// neither.
+    /// The columns from 1 up to this position, without its end, are parameters. The position is the column
+    /// `branch` or `status`, or 0 if the file has neither column.
     pub(super) parameters_end: usize,
-    /// The measure that is drawn over a parameter.
+    /// The measure that a response picture shows over a parameter by default.
     pub(super) response: Option<usize>,
-    /// Measures for benefit, cost and size of the motion. No column has two roles. `None` if the file has
-    /// no column for a role.
+    /// The default measures for the roles benefit, cost, and size of the motion. All three measures differ,
+    /// and a measure is `None` if the file has no column for its role.
     pub(super) measures: [Option<usize>; 3],
 }
 
 impl<'a> Request<'a> {
-    /// Checks the columns that the user requested.
+    /// Finds the columns that the user requested, or returns an error if the file lacks one of these columns.
     pub(super) fn of(source: &Source, args: &'a PlotArgs) -> Result<Request<'a>, Failure> {
         let find = |name: &Option<String>| name.as_deref().map(|name| source.find(name)).transpose();
         let names = source.names().to_vec();
@@ -70,12 +70,12 @@ impl<'a> Request<'a> {
         })
     }
 
-    /// Returns the name of a column.
+    /// Returns the name of the column at a position.
     pub(super) fn name(&self, column: usize) -> &str {
         &self.names[column]
     }
 
-    /// Returns the names of columns, separated by commas.
+    /// Returns the names of the given columns as text, separated by commas.
     pub(super) fn listed(&self, columns: &[usize]) -> String {
         columns.iter().map(|&column| self.name(column)).collect::<Vec<_>>().join(", ")
     }
@@ -100,36 +100,39 @@ impl<'a> Request<'a> {
             || NEEDED.contains(&self.names[column].as_str())
     }
 
-    /// Returns the column with the inputs of a vehicle, if the file has one line for each input.
+    /// Returns the column `input` if the file is the control matrix of a vehicle.
     pub(super) fn matrix(&self) -> Option<usize> {
         let has = |name: &str| self.position(name).is_some();
         let is_matrix = has("unit") && has("value") && COMPONENTS.iter().all(|name| has(name));
         self.position(INPUT).filter(|_| is_matrix)
     }
 
-    /// Returns the first of the given columns that neither the user requested nor `taken` contains.
+    /// Returns the first column in `preferred` that the user did not request and that `taken` does not
+    /// contain.
     pub(super) fn free(&self, preferred: [Option<usize>; 3], taken: &[usize]) -> Option<usize> {
         let asked = [self.x, self.y, self.color];
         let is_free = |column: &usize| !asked.contains(&Some(*column)) && !taken.contains(column);
         preferred.into_iter().flatten().find(is_free)
     }
 
-    /// Returns the column with the branch of each row of `flap respond`.
+    /// Returns the column `branch` in results of `flap respond`.
     pub(super) fn branch(&self) -> Option<usize> {
         self.position("branch")
     }
 
-    /// Returns true if the user set a better direction.
+    /// Returns true if the user gave `--x-aim` or `--y-aim`.
     pub(super) fn has_aims(&self) -> bool {
         self.args.x_aim.is_some() || self.args.y_aim.is_some()
     }
 
-    /// Returns the column of `--option`. If the column is missing, the failure contains the reason `why`.
+    /// Returns `column`, or a failure if it is `None`. The message of the failure contains `--option` and the
+    /// reason `why`.
     pub(super) fn required(&self, option: &str, column: Option<usize>, why: &str) -> Result<usize, Failure> {
         column.ok_or_else(|| self.unsuitable(format!("--{option} is not given, and {why}")))
     }
 
-    /// Returns the failure of a picture that does not suit the file. The help lists the columns of the file.
+    /// Returns the failure for a picture that flap cannot draw from this file. The help line lists the
+    /// columns of the file.
     pub(super) fn unsuitable(&self, message: impl Into<String>) -> Failure {
         Failure::usage(message).help(columns::listed(self.names.iter().map(String::as_str)))
     }

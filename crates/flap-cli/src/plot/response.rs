@@ -1,4 +1,4 @@
-//! Responses: a measure over a parameter, with one line for each value of another parameter.
+//! Response pictures: a measure over a parameter, with one line for each value of a second parameter.
 
 use std::borrow::Cow;
 
@@ -15,16 +15,16 @@ use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::data::levels::{Levels, Values};
 use crate::failure::Failure;
 
-/// Largest number of lines in a picture. More lines cannot be distinguished.
+/// Largest number of lines in a picture, because the reader cannot distinguish a larger number of lines.
 const MOST_LINES: usize = 16;
 
-/// Largest number of points in a line.
+/// Largest number of points in a line. Longer lines are thinned.
 const MOST_POINTS: usize = 4000;
 
-/// The radius of points if the horizontal axis has words.
+/// The radius of the points in a picture with words on the horizontal axis.
 const WORD_SIZE: f64 = 4.0;
 
-/// Draws column `y` over column `x`.
+/// Draws column `y` over column `x` as lines, or as points if `x` contains words.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let (across, words) = places(table, selection.columns.x)?;
     let up = table.numbers(selection.columns.y)?;
@@ -99,7 +99,8 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(panel.scene(size))
 }
 
-/// Returns the positions of the rows along column `x`, and for a column of words the words at the positions 0, 1, 2, ….
+/// Returns the position of each row on the horizontal axis, and the words at the positions 0, 1, 2, …. The
+/// list of words is empty if `x` contains numbers.
 fn places(table: &Table, x: usize) -> Result<(Cow<'_, [f64]>, Vec<String>), Failure> {
     let Cells::Words { codes, words } = &table.columns[x].cells else {
         return Ok((Cow::Borrowed(table.numbers(x)?), Vec::new()));
@@ -108,13 +109,14 @@ fn places(table: &Table, x: usize) -> Result<(Cow<'_, [f64]>, Vec<String>), Fail
     Ok((codes.iter().map(place).collect(), words.clone()))
 }
 
-/// The rows of one line.
+/// A line of the picture: its name, and the rows of its points.
 pub(super) struct Line {
     pub(super) name: String,
     pub(super) rows: Vec<usize>,
 }
 
-/// Groups the chosen rows by the value of the column `by`; without this column, all rows form one line.
+/// Groups the selected rows into lines, by their value in the column `by`. Without a column `by`, all rows
+/// form one line.
 pub(super) fn family(table: &Table, selection: &Selection) -> Result<Vec<Line>, Failure> {
     let Some(by) = selection.columns.by else {
         return Ok(vec![Line { name: String::new(), rows: selection.rows.clone() }]);
@@ -144,7 +146,7 @@ pub(super) fn family(table: &Table, selection: &Selection) -> Result<Vec<Line>, 
     Ok(lines)
 }
 
-/// Returns true if the lines have an order, as numbers have.
+/// Returns true if the values that distinguish the lines are numbers, so that the lines have an order.
 pub(super) fn ordered(table: &Table, selection: &Selection) -> bool {
     selection.columns.by.is_some_and(|by| table.numbers(by).is_ok())
 }

@@ -1,6 +1,6 @@
-//! Ranges of axes, their ticks, and the reduction of long lines.
+//! Ranges and ticks of axes, and the thinning of lines with many points.
 
-/// Returns the smallest and the largest number; `None` if there is no number.
+/// Returns the smallest and the largest finite number, or `None` if no number is finite.
 pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)> {
     let finite = values.into_iter().filter(|value| value.is_finite());
     finite.fold(None, |range, value| {
@@ -9,12 +9,14 @@ pub(super) fn range(values: impl IntoIterator<Item = f64>) -> Option<(f64, f64)>
     })
 }
 
-/// Returns the ranges of the finite coordinates of points; `None` if one range is empty.
+/// Returns the ranges of the x- and y-coordinates of points. The result is `None` if no x-coordinate or no
+/// y-coordinate is finite.
 pub(super) fn extent(points: &[(f64, f64)]) -> Option<[(f64, f64); 2]> {
     Some([range(points.iter().map(|point| point.0))?, range(points.iter().map(|point| point.1))?])
 }
 
-/// Returns a range with a margin of `share` on both sides; the range is never empty.
+/// Returns a range that is larger by the fraction `share` of its width on both sides. If the given range is
+/// empty, the result still has a width.
 pub(super) fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
     let width = high - low;
     // Numbers that differ only by rounding count as equal.
@@ -25,14 +27,15 @@ pub(super) fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
     (low - share * width, high + share * width)
 }
 
-/// Returns the range of a vertical axis. The range begins at 0 if all values are near 0; otherwise the range has
-/// margins.
+/// Returns the range of a vertical axis with margins. If the smallest value is at least 0 and less than 30 %
+/// of the largest value, the range begins at 0.
 pub(super) fn from_zero((low, high): (f64, f64)) -> (f64, f64) {
     let (padded_low, padded_high) = padded((low, high), 0.05);
     if low >= 0.0 && low < 0.3 * high { (0.0, padded_high) } else { (padded_low, padded_high) }
 }
 
-/// Returns the distance of about `count` ticks: 1, 2 or 5 times a power of ten.
+/// Returns a distance between ticks at which a range has about `count` ticks. The distance is 1, 2 or 5 times
+/// a power of ten.
 pub(super) fn step((low, high): (f64, f64), count: f64) -> f64 {
     let rough = (high - low) / count;
     let ten = 10_f64.powf(rough.log10().floor());
@@ -40,7 +43,7 @@ pub(super) fn step((low, high): (f64, f64), count: f64) -> f64 {
     factor * ten
 }
 
-/// Returns the ticks within the range.
+/// Returns the positions of the ticks within the range.
 pub(super) fn ticks(range: (f64, f64), step: f64) -> Vec<f64> {
     let (low, high) = range;
     let first = (low / step - 1e-9).ceil();
@@ -49,7 +52,8 @@ pub(super) fn ticks(range: (f64, f64), step: f64) -> Vec<f64> {
     (0..count).map(|i| (first + i as f64) * step).collect()
 }
 
-/// Returns the text at a tick, with the decimals that `step` requires.
+/// Returns the number at a tick as text. The number has enough decimals to distinguish ticks at the distance
+/// `step`.
 pub(super) fn tick(value: f64, range: (f64, f64), step: f64) -> String {
     let largest = range.0.abs().max(range.1.abs());
     // A tick so close to 0 is 0 with rounding errors.
@@ -62,8 +66,9 @@ pub(super) fn tick(value: f64, range: (f64, f64), step: f64) -> String {
     format!("{value:.decimals$}").replace('-', "−")
 }
 
-/// Returns at most about `most` points of a line, in their order. The function keeps the ends and the extremes of each
-/// part of the line, so that peaks remain. It also keeps one NaN of each part, so that gaps remain.
+/// Returns about `most` or fewer points of a line, in their order. The function divides the line into parts
+/// and keeps the ends and the extremes of each part, so that peaks remain. The function also keeps one NaN of
+/// each part, so that gaps remain.
 pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
     if points.len() <= most {
         return points.to_vec();
@@ -86,7 +91,8 @@ pub(super) fn thinned(points: &[(f64, f64)], most: usize) -> Vec<(f64, f64)> {
     kept
 }
 
-/// Returns `count` evenly spaced whole numbers below `of`, including 0 and `of` - 1.
+/// Returns `count` evenly spaced whole numbers from 0 to `of` - 1. If `of` is smaller than `count`, returns
+/// all whole numbers in this range.
 pub(super) fn even(of: usize, count: usize) -> Vec<usize> {
     if of <= count {
         return (0..of).collect();

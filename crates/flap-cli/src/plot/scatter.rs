@@ -1,4 +1,4 @@
-//! Scatter plots: two measures of every design as points, coloured by a third column.
+//! Scatter pictures: two measures of every design as points, coloured by a third column.
 
 use flap_sweep::picture::colours::{MISSING, PLAIN};
 use kuva::render::layout::ComputedLayout;
@@ -16,7 +16,7 @@ use crate::data::columns::{Cells, Table};
 use crate::data::levels::Levels;
 use crate::failure::Failure;
 
-/// Draws column `y` over column `x`, coloured by column `color`.
+/// Draws column `y` over column `x` as points, coloured by column `color`.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let points = Points::of(table, selection)?;
     let (drawn, all) = (points.shown.len(), points.places.len());
@@ -51,30 +51,31 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// Largest number of points in a picture, without the points of a front.
+/// Largest number of points that a picture shows. The points on a Pareto front do not count.
 const MOST_POINTS: usize = 20_000;
 
-/// The radius of uncoloured points.
+/// The radius of points that are not coloured by a column.
 pub(super) const SIZE: f64 = 2.2;
 
-/// Number of shades of coloured points.
+/// Number of different colours for points that are coloured by numbers.
 const SHADES: usize = 24;
 
 /// The points of a picture.
 pub(super) struct Points {
-    /// The rows with both coordinates, and their places in the units of the picture.
+    /// The rows that have both coordinates. `places` contains the coordinates of these rows in the units of
+    /// the picture.
     rows: Vec<usize>,
     pub(super) places: Vec<(f64, f64)>,
-    /// Ranges of the coordinates of the points.
+    /// Ranges of the x- and y-coordinates of the points.
     pub(super) extent: [(f64, f64); 2],
-    /// Indices of the places that are drawn.
+    /// Indices in `places` of the points that the picture shows.
     pub(super) shown: Vec<usize>,
-    /// Number of rows without a place in the picture.
+    /// Number of selected rows that lack a coordinate.
     pub(super) missing: usize,
 }
 
 impl Points {
-    /// Returns the rows that have values in both columns.
+    /// Returns the points of the selected rows that have numbers in both columns `x` and `y`.
     pub(super) fn of(table: &Table, selection: &Selection) -> Result<Points, Failure> {
         let (across, up) = (table.numbers(selection.columns.x)?, table.numbers(selection.columns.y)?);
         let (x, y) = (table.label(selection.columns.x), table.label(selection.columns.y));
@@ -90,13 +91,14 @@ impl Points {
         Ok(Points { rows, places, extent, shown, missing })
     }
 
-    /// Returns the note about rows without a place in the picture; `None` if all rows have a place.
+    /// Returns the note about rows that lack a coordinate, or `None` if all rows have both coordinates.
     pub(super) fn note(&self) -> Option<String> {
         let all = self.rows.len() + self.missing;
         (self.missing > 0).then(|| format!("{} of {all} designs without values", self.missing))
     }
 
-    /// Returns a plot for each word in the column `color`.
+    /// Returns one plot for each word in the column `color`, with the points of the rows that contain this
+    /// word.
     fn by_word(&self, table: &Table, color: usize) -> Vec<Plot> {
         let levels = Levels::of(table, color, &self.rows);
         let mut groups = vec![Vec::new(); levels.len()];
@@ -110,7 +112,8 @@ impl Points {
         groups.iter().enumerate().map(plot).collect()
     }
 
-    /// Returns the points as one plot called `name`, or coloured by the chosen column as several plots with their colour bar.
+    /// Returns the points as one plot called `name`. If the picture has a column `color`, returns one plot
+    /// for each colour, and the axis of the colour bar.
     pub(super) fn plots(
         &self,
         table: &Table,

@@ -1,4 +1,4 @@
-//! Chooses the rows of a picture, and describes the choice.
+//! Selects the rows that a picture shows, and describes the selection in notes.
 
 use super::kind::{self, Columns};
 use super::request::Request;
@@ -11,23 +11,23 @@ use crate::data::columns::{Cells, Column, Table};
 use crate::data::filter;
 use crate::failure::Failure;
 
-/// The contents of a picture.
+/// The columns and rows that a picture shows, with the title and the notes.
 pub(super) struct Selection {
     pub(super) columns: Columns,
-    /// The better directions of x and y.
+    /// The directions in which x and y are better.
     pub(super) aims: (Aim, Aim),
     pub(super) rows: Vec<usize>,
-    /// The columns of parameters, sampled parameters first.
+    /// The columns of all parameters. Sampled parameters are first.
     pub(super) parameters: Vec<usize>,
     /// True if the designs are a sample.
     pub(super) sampled: bool,
     pub(super) title: String,
-    /// Filters and slices as text.
+    /// Texts below the title about conditions on rows and chosen values of axes.
     pub(super) notes: Vec<String>,
 }
 
 impl Selection {
-    /// Returns the failure of a picture for which `column` has no number.
+    /// Returns the failure for a picture in which no selected row has a number in `column`.
     pub(super) fn no_numbers(&self, table: &Table, column: usize) -> Failure {
         let (name, rows) = (&table.columns[column].name, self.rows.len());
         let message = format!("none of {rows} rows has a value of {name}: there is nothing to draw");
@@ -37,7 +37,7 @@ impl Selection {
     }
 }
 
-/// Chooses kind, columns and rows.
+/// Chooses the kind, the columns and the rows of the picture.
 pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<Selection, Failure> {
     let axes = Axes::of(table, request.parameters_end);
     let mut free = axes.clone();
@@ -72,7 +72,8 @@ pub(super) fn select(request: &Request, table: &Table, title: String) -> Result<
     Ok(Selection { columns, aims, rows, parameters, sampled: axes.sampled, title, notes })
 }
 
-/// Returns the values that some columns must have. A map shows one branch of a response, by default the branch up.
+/// Returns the conditions `COLUMN=VALUE`. If a map has no condition for the branch of a response, the
+/// function adds the condition that the branch is `up`.
 fn filters(request: &Request, table: &Table, kind: PictureKind) -> Vec<(usize, String)> {
     let mut filters = request.filters.clone();
     if let (PictureKind::Map, Some(branch)) = (kind, request.branch())
@@ -85,7 +86,7 @@ fn filters(request: &Request, table: &Table, kind: PictureKind) -> Vec<(usize, S
     filters
 }
 
-/// Returns an error if the picture shows an axis of --best-over.
+/// Returns an error if `--best-over` names a column that is not an axis, or an axis that the picture shows.
 fn check_best_over(request: &Request, hidden: &[usize]) -> Result<(), Failure> {
     let Some(&shown) = request.best_over.iter().find(|over| !hidden.contains(over)) else { return Ok(()) };
     let message = format!("--best-over {}: not an axis that the picture leaves out", request.name(shown));
@@ -96,7 +97,8 @@ fn check_best_over(request: &Request, hidden: &[usize]) -> Result<(), Failure> {
     }))
 }
 
-/// Returns the row with the best measure at each place of the picture, and prints the place of the best of these rows.
+/// Returns, for each position of the picture, the row with the best measure. Prints the values of the best of
+/// these rows.
 fn best(
     request: &Request,
     table: &Table,
@@ -129,9 +131,10 @@ fn has_both_ways(table: &Table, branch: usize) -> bool {
     ["up", "down"].iter().all(|way| words.iter().any(|word| word == way))
 }
 
-/// Returns an error if differences of the numbers exceed the largest float, so that no axis can show the numbers.
+/// Returns an error if a column contains numbers so large that the margins and ticks of an axis would exceed
+/// the range of floating-point numbers.
 fn check_span(table: &Table, columns: &Columns, rows: &[usize]) -> Result<(), Failure> {
-    /// Margins and ticks require the rest of the range of floating-point numbers.
+    /// Largest allowed magnitude of a number. Margins and ticks of an axis may be several times larger.
     const LARGEST: f64 = f64::MAX / 16.0;
     for column in [Some(columns.x), Some(columns.y), columns.color].into_iter().flatten() {
         let Cells::Numbers(values) = &table.columns[column].cells else { continue };
@@ -146,7 +149,7 @@ fn check_span(table: &Table, columns: &Columns, rows: &[usize]) -> Result<(), Fa
     Ok(())
 }
 
-/// Returns a value that the user typed, in the unit of the picture.
+/// Returns a value that the user typed as text in the unit of the picture.
 fn shown(table: &Table, column: usize, typed: &str) -> String {
     let Column { name, unit, .. } = &table.columns[column];
     match filter::number(name, unit, typed) {
@@ -155,13 +158,14 @@ fn shown(table: &Table, column: usize, typed: &str) -> String {
     }
 }
 
-/// Returns the better directions of x and y.
+/// Returns the directions in which x and y are better.
 pub(super) fn aims(request: &Request, columns: &Columns) -> (Aim, Aim) {
     let aim = |asked: Option<Aim>, column: usize| asked.unwrap_or_else(|| Aim::of(request.name(column)));
     (aim(request.args.x_aim, columns.x), aim(request.args.y_aim, columns.y))
 }
 
-/// Returns the axes that the picture does not show.
+/// Returns the axes of the sweep along which flap must choose rows, because the picture does not show these
+/// axes.
 fn hidden(columns: &Columns, axes: &Axes) -> Vec<usize> {
     use PictureKind::{Histogram, Matrix, Pareto, Scatter, Tornado, Trajectory};
     let color = columns.color.filter(|_| columns.kind == Scatter);

@@ -1,4 +1,4 @@
-//! Colours of numbers, and colour bars.
+//! Colours for numbers, and colour bars.
 
 use flap_sweep::picture::colours::{MISSING, is_signed};
 use kuva::plot::ColorMap;
@@ -10,24 +10,26 @@ use super::ink::{self, rectangle, text};
 use super::panel::{Axis, BAR_MARGIN, DIGIT, LETTER};
 use super::scale;
 
-/// The colours of numbers within a range.
+/// A colour map for the numbers within a range.
 pub(super) struct Shades {
     range: (f64, f64),
 }
 
 impl Shades {
-    /// Returns the colours for numbers in `range`.
+    /// Returns the colour map for the numbers in `range`.
     pub(super) fn of(range: (f64, f64)) -> Shades {
         Shades { range }
     }
 
-    /// Returns true for a diverging map, whose middle is zero.
+    /// Returns true if the range contains negative and positive numbers. The middle of the colour map is then
+    /// zero.
     pub(super) fn is_signed(&self) -> bool {
         is_signed(self.range.0, self.range.1)
     }
 
-    /// Returns the colour of a number. If the range has both signs, negative numbers are blue, positive numbers are
-    /// red, and equal magnitudes are equally strong. If all numbers have the same sign, the lightness rises evenly.
+    /// Returns the colour of a number. If the range contains both signs, negative numbers are blue, positive
+    /// numbers are red, and equal magnitudes have equally strong colours. If all numbers have the same sign,
+    /// the lightness increases evenly with the number.
     pub(super) fn colour(&self, value: f64) -> String {
         let (low, high) = self.range;
         if self.is_signed() {
@@ -38,7 +40,8 @@ impl Shades {
     }
 }
 
-/// Returns a label and a font size that fit into a length: if necessary, smaller than the `usual` size, and cut.
+/// Returns a label and a font size that fit into a length. If necessary, the size is smaller than the `usual`
+/// size, or the label is shortened.
 fn fitting(label: &str, length: f64, usual: u32) -> (String, u32) {
     const SMALLEST: u32 = 10;
     let fits = |letters: usize, size: u32| letters as f64 * f64::from(size) * LETTER <= length;
@@ -50,7 +53,8 @@ fn fitting(label: &str, length: f64, usual: u32) -> (String, u32) {
     (label.chars().take(kept).chain(['…']).collect(), SMALLEST)
 }
 
-/// Draws a colour bar on the right, and below it the label for `missing` values.
+/// Draws a colour bar on the right. If `missing` is a text, draws below the bar the colour of missing values
+/// with this text.
 pub(super) fn colour_bar(scene: &mut Scene, frame: &ComputedLayout, axis: &Axis, missing: Option<&str>) {
     const SLICES: usize = 64;
     let (low, high) = axis.range;

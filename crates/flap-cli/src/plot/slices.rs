@@ -1,4 +1,4 @@
-//! Choice of rows: filters, and slices along axes that a picture does not show.
+//! Selects rows by conditions, and by the values of axes that a picture does not show.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use crate::data::filter;
 use crate::data::levels::Levels;
 use crate::failure::Failure;
 
-/// Returns the rows that have a given value in some columns.
+/// Returns the rows that satisfy all conditions: each condition is a column and the value of this column.
 pub(super) fn filtered(table: &Table, filters: &[(usize, String)]) -> Result<Vec<usize>, Failure> {
     let mut rows: Vec<usize> = (0..table.rows).collect();
     for &(column, ref text) in filters {
@@ -38,14 +38,15 @@ pub(super) fn filtered(table: &Table, filters: &[(usize, String)]) -> Result<Vec
     Ok(rows)
 }
 
-/// Returns a question if a number without a unit may lack a prefix.
+/// Returns the question whether the user meant a unit with a prefix, if a number without a unit does not fit
+/// the column.
 fn prefix_question(table: &Table, column: usize, text: &str) -> Option<String> {
     let Column { name, unit, .. } = &table.columns[column];
     let usual = *table.numbers(column).ok()?.first()?;
     filter::prefix_question(name, unit, text.parse().ok()?, usual)
 }
 
-/// Returns the values of a column as text: at most a dozen values.
+/// Returns a help line with the values of a column, at most twelve.
 fn listed(table: &Table, column: usize, levels: &Levels) -> String {
     const MOST: usize = 12;
     let text = |place| levels.value(place).typed();
@@ -59,9 +60,10 @@ fn listed(table: &Table, column: usize, levels: &Levels) -> String {
     format!("{name} is {} {unit}", shown.join(", ")).trim_end().to_owned()
 }
 
-/// Chooses the middle value of each axis in `axes`. The picture does not show the axes in `axes`.
+/// Chooses the middle value of each axis in `axes`, because the picture does not show these axes.
 ///
-/// Returns the rows with the chosen values, and for each chosen value a message and a note for the picture.
+/// Returns the rows that have the chosen values. Also returns, for each chosen value, a message for stderr
+/// and a note for the picture.
 pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> (Vec<usize>, Vec<[String; 2]>) {
     let mut chosen = Vec::new();
     for &axis in axes {
@@ -85,9 +87,11 @@ pub(super) fn sliced(table: &Table, axes: &[usize], mut rows: Vec<usize>) -> (Ve
     (rows, chosen)
 }
 
-/// Returns, for each combination of values in the columns `shown`, the row with the best number in the column `measure`.
+/// For each combination of values in the columns `shown`, returns the row with the best number in the column
+/// `measure`.
 ///
-/// A combination without a number keeps its first row. The rows stay in the order of the file.
+/// If no row of a combination has a number, returns the first row of this combination. The returned rows are
+/// in the order of the file.
 pub(super) fn best(
     table: &Table,
     shown: &[usize],

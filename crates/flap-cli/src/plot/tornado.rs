@@ -1,4 +1,4 @@
-//! Tornado plots: the rank correlation of each parameter with a measure.
+//! Tornado pictures: bars that show the rank correlation of each parameter with a measure.
 
 use flap_sweep::picture::colours::{DARK, SERIES};
 use flap_sweep::picture::sample::correlations;
@@ -17,13 +17,15 @@ use crate::failure::Failure;
 /// Largest number of bars in a picture.
 const MOST_BARS: usize = 20;
 
-/// The height of a bar, relative to the distance between two bars.
+/// The height of a bar as a fraction of the distance between two bars.
 const THICK: f64 = 0.62;
 
-/// Length of a bar above which the number is inside the bar.
+/// If the magnitude of a correlation is larger, its number is written inside the bar, otherwise beside the
+/// bar.
 const LONG: f64 = 0.82;
 
-/// Draws the correlations of the parameters with column `x`, the largest at the top.
+/// Draws the correlations of the parameters with the measure in column `x`. The largest correlation is at the
+/// top.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let measure = selection.columns.x;
     let values = table.numbers(measure)?;

@@ -1,4 +1,5 @@
-//! Stroke and pitch over time: one motion with its rates over its angles, or several motions.
+//! Pictures of stroke and pitch over time, for one motion or several motions. The picture of one motion also
+//! shows the phase portraits: rate over angle.
 
 use std::collections::{BTreeMap, HashSet};
 
@@ -18,16 +19,16 @@ use crate::data::columns::Table;
 use crate::data::levels::Levels;
 use crate::failure::Failure;
 
-/// Largest number of points in one line.
+/// Largest number of points in a line. Longer lines are thinned.
 const MOST_POINTS: usize = 8000;
 
-/// The angles, given as the first parts of the column names.
+/// The angles that the picture shows. The names of their columns begin with these words.
 const ANGLES: [&str; 2] = ["stroke", "pitch"];
 
-/// Largest number of motions in a picture. More motions cannot be distinguished.
+/// Largest number of motions in a picture, because the reader cannot distinguish a larger number of motions.
 const MOST_MOTIONS: usize = 16;
 
-/// Draws one motion with its phase portrait, or several motions over time.
+/// Draws one motion with its phase portraits, or several motions over time.
 pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let motions = motions(table, selection);
     if motions.len() > 1 {
@@ -37,14 +38,15 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     }
 }
 
-/// The rows of one motion.
+/// One motion of the file: its name, rows and colour in the picture.
 struct Motion {
     name: String,
     rows: Vec<usize>,
     colour: String,
 }
 
-/// Groups the rows by the columns before the time, as `flap run` writes them for several designs.
+/// Groups the rows into motions by the columns to the left of the time column. For several designs, `flap
+/// run` writes the names of the designs into these columns.
 fn motions(table: &Table, selection: &Selection) -> Vec<Motion> {
     let rows = &selection.rows;
     let levels = (0..selection.columns.x).map(|column| (column, Levels::of(table, column, rows)));
@@ -79,7 +81,7 @@ fn motions(table: &Table, selection: &Selection) -> Vec<Motion> {
         .collect()
 }
 
-/// Draws stroke and pitch of several motions over time, one below the other.
+/// Draws several motions over time. The panel with the stroke is above the panel with the pitch.
 fn draw_several(
     table: &Table,
     selection: &Selection,
@@ -114,7 +116,7 @@ fn draw_several(
     Ok(figure(panels, Arrangement::Below, &selection.title, &selection.notes, size))
 }
 
-/// Draws the motion beside its phase portrait, or above it in a narrow picture.
+/// Draws one motion over time, and its phase portraits beside it, or below it in a narrow picture.
 fn draw_one(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let time = table.numbers(selection.columns.x)?;
     let label = table.label(selection.columns.x);
@@ -177,15 +179,16 @@ fn draw_one(table: &Table, selection: &Selection, size: Size) -> Result<Scene, F
 /// The arrangement of panels.
 #[derive(Clone, Copy, PartialEq)]
 enum Arrangement {
-    /// The panels are beside one another.
+    /// The panels are side by side.
     Beside,
-    /// The panels are below one another.
+    /// The panels are one below the other.
     Below,
 }
 
-/// Returns a scene with panels below one title, and their legend on the right.
+/// Draws several panels below a common title, with a common legend on the right.
 ///
-/// Long names in the legend are shortened, so that the panels keep 40 % of the width.
+/// Long names in the legend are shortened, so that at least 40 % of the picture's width remains for the
+/// panels.
 fn figure(
     mut panels: Vec<Panel>,
     arrangement: Arrangement,
@@ -193,7 +196,7 @@ fn figure(
     notes: &[String],
     size: Size,
 ) -> Scene {
-    /// The width of the legend without its names.
+    /// The width of the legend without the names in the legend.
     const LEGEND: f64 = 75.0;
     let letter = LETTER * f64::from(TEXT);
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a few hundred")]
@@ -240,8 +243,8 @@ fn figure(
     figure.render()
 }
 
-/// Returns `names` with at most `most` letters each. An ellipsis replaces their common beginning and the middle of long
-/// names. Shortened names that are equal get a number.
+/// Returns `names` with at most `most` letters each. An ellipsis replaces the common beginning of all names,
+/// and the middle of long names. If two shortened names are equal, all names begin with a number.
 fn shortened(names: &[&str], most: usize) -> Vec<String> {
     let letters: Vec<Vec<char>> = names.iter().map(|name| name.chars().collect()).collect();
     if letters.iter().all(|name| name.len() <= most) {
@@ -267,8 +270,8 @@ fn shortened(names: &[&str], most: usize) -> Vec<String> {
         .collect()
 }
 
-/// Returns the rates of one motion in degrees per millisecond, from the differences of neighbours among the `rows` of the
-/// motion.
+/// Returns the angular rates of one motion in degrees per millisecond. The rates are computed from
+/// differences between neighbouring rows of the motion.
 fn rates(time: &[f64], angles: &[f64], rows: &[usize]) -> Vec<f64> {
     let last = rows.len().saturating_sub(1);
     (0..rows.len())

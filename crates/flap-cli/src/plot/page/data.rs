@@ -9,23 +9,24 @@ use serde::Serialize;
 use crate::data::columns::{Cells, NO_WORD, Table};
 use crate::data::levels::Value;
 
-/// Largest number of rows of a page that has all digits of the measures; larger pages have seven digits.
+/// Largest number of rows for which the page contains all digits of numbers. In pages with more rows, numbers
+/// have seven digits.
 const MOST_EXACT: usize = 20_000;
 
-/// The data of a page.
+/// The data of a page of results.
 #[derive(Serialize)]
 pub(super) struct Data<'a> {
-    /// Rows in the page.
+    /// Number of rows in the page.
     rows: usize,
-    /// Rows of the file.
+    /// Number of rows of the file that satisfy the conditions.
     of: usize,
-    /// The step between the rows of the page in the file: 2 if the page has every second row.
+    /// The page contains every row of the file with stride 1, every second row with stride 2, and so on.
     stride: usize,
-    /// True if numbers have single precision.
+    /// True if the numbers in the page have single precision.
     single: bool,
-    /// The column with the branch of each row of `flap respond`.
+    /// The column `branch` in results of `flap respond`.
     branch: Option<usize>,
-    /// Columns of the parameters that vary.
+    /// Positions of the columns of varied parameters.
     axes: &'a [usize],
     start: &'a Start,
     columns: Vec<Column<'a>>,
@@ -39,14 +40,15 @@ pub(super) struct Start {
     pub(super) y: usize,
     pub(super) by: Option<usize>,
     pub(super) color: Option<usize>,
-    /// The better directions of x and y, such as `1,-1`; empty for a view without a Pareto front.
+    /// Directions in which x and y are better: 1 for larger values, -1 for smaller values, such as `1,-1`.
+    /// Empty for a view without a Pareto front.
     pub(super) best: String,
-    /// The values of the conditions on rows, by column.
+    /// For each condition `COLUMN=VALUE`, the value of the column.
     #[serde(rename = "where")]
     pub(super) filters: BTreeMap<String, Value>,
 }
 
-/// The kind of a page's view.
+/// The kind of picture that a page shows.
 #[derive(Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(super) enum Kind {
@@ -59,27 +61,28 @@ pub(super) enum Kind {
 #[derive(Serialize)]
 struct Column<'a> {
     name: &'a str,
-    /// The name as text.
+    /// The name of the column in words.
     label: String,
-    /// The name as text with the unit.
+    /// The name of the column in words, with the unit.
     title: String,
     unit: String,
     factor: f64,
     /// The type of the numbers in `data`: `f64`, `f32`, `u8`, `u16` or `u32`.
     #[serde(rename = "type")]
     kind: &'static str,
-    /// One number per row, little-endian, in base64.
+    /// One number per row, in little-endian bytes that are encoded as base64.
     data: String,
-    /// The words for the codes 0, 1, …; the code after the last word stands for an empty cell.
+    /// The words that the codes 0, 1, 2, … in `data` stand for. The code after the last word stands for an
+    /// empty cell.
     #[serde(skip_serializing_if = "Option::is_none")]
     words: Option<&'a [String]>,
-    /// The values for the codes 0, 1, …; null stands for an empty cell.
+    /// The numbers that the codes 0, 1, 2, … in `data` stand for. The number null stands for an empty cell.
     #[serde(skip_serializing_if = "Option::is_none")]
     values: Option<Vec<f64>>,
 }
 
 impl<'a> Data<'a> {
-    /// Returns the data of all rows of `table`.
+    /// Returns the data of a page with all rows of `table`.
     pub(super) fn new(
         table: &'a Table,
         axes: &'a [usize],
@@ -99,7 +102,7 @@ impl<'a> Data<'a> {
         }
     }
 
-    /// Returns the data as JSON.
+    /// Returns the data as JSON text.
     pub(super) fn json(&self) -> Result<String, serde_json::Error> {
         serde_json::to_string(self)
     }
@@ -145,7 +148,7 @@ impl<'a> Column<'a> {
     }
 }
 
-/// Returns the type and the bytes of codes below `count`.
+/// Returns the codes as bytes, and the smallest integer type that can contain numbers below `count`.
 fn coded(codes: &[usize], count: usize) -> (&'static str, Vec<u8>) {
     let (kind, width) = match count {
         0..=0x100 => ("u8", 1),
@@ -155,7 +158,8 @@ fn coded(codes: &[usize], count: usize) -> (&'static str, Vec<u8>) {
     (kind, codes.iter().flat_map(|code| code.to_le_bytes().into_iter().take(width)).collect())
 }
 
-/// Returns the code of each value and the list of different values; `None` if there are many different values.
+/// Returns the code of each value, and the list of different values that the codes stand for. The result is
+/// `None` if the values have too many different numbers.
 fn distinct(values: &[f64]) -> Option<(Vec<usize>, Vec<f64>)> {
     let most = (values.len() / 4).min(1 << 16);
     let mut places = HashMap::new();
