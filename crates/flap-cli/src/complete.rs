@@ -144,7 +144,7 @@ fn names() -> Vec<CompletionCandidate> {
     distinct(parameters().into_iter().chain(columns()).chain(settings).chain(statuses()))
 }
 
-/// Returns the candidates that begin with the word.
+/// Returns the candidates that begin with the text `word`.
 fn begun(word: &OsStr, mut candidates: Vec<CompletionCandidate>) -> Vec<CompletionCandidate> {
     let word = word.to_string_lossy();
     candidates.retain(|candidate| candidate.get_value().to_string_lossy().starts_with(&*word));

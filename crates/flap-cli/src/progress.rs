@@ -36,7 +36,8 @@ impl Bar {
         Bar { drawn, log, units, moved: false, stopping: false }
     }
 
-    /// Moves the progress bar. At the first call with `stopping`, prints a note that the run stops.
+    /// Moves the progress bar. At the first call in which `stopping` is true, prints a note that the run
+    /// stops.
     pub(crate) fn show(&mut self, progress: Progress, stopping: bool) {
         self.drawn.set_length(progress.points);
         self.drawn.set_position(progress.finished);

@@ -33,8 +33,8 @@ pub(crate) struct Table {
     rows: Vec<Vec<String>>,
     /// Titles of groups of rows, each with the number of rows above the title.
     titles: Vec<(usize, String)>,
-    /// A table that is too wide is split into parts, and each part begins with this number of first columns.
-    /// The number 0 means 1.
+    /// If the table is too wide, flap splits the table into parts, and each part repeats this number of
+    /// columns at the left. The number 0 has the same effect as 1.
     keys: usize,
 }
 
@@ -63,8 +63,8 @@ impl Table {
         table
     }
 
-    /// Sets the number of first columns with which each part of a split table begins. A table is split if it
-    /// is too wide.
+    /// Sets the number of columns at the left that each part of a split table repeats. flap splits a table
+    /// that is too wide.
     pub(crate) fn with_keys(self, keys: usize) -> Table {
         Table { keys, ..self }
     }
@@ -116,7 +116,7 @@ impl Table {
             .collect()
     }
 
-    /// Returns a part of a split table: the first columns, which all parts repeat, and the given columns.
+    /// Returns a part of a split table: the columns at the left that all parts repeat, and the given columns.
     fn part(&self, columns: Range<usize>) -> Table {
         let cells = |row: &Vec<String>| {
             let rest = row.iter().skip(columns.start).take(columns.len());

@@ -86,7 +86,7 @@ pub(crate) struct LookArgs {
 
     /// Use only the rows that satisfy the condition. You can repeat --where
     ///
-    /// In COLUMN=VALUE, VALUE is a number in the unit of the column, a number with another unit, or a text. A
+    /// In COLUMN=VALUE, VALUE is a number in the unit of the column, a number with a unit, or a text. A
     /// comparison may have several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. Put text
     /// in a comparison in quotes: "device == 'long'".
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]

@@ -49,7 +49,7 @@ pub(crate) struct PlotArgs {
 
     /// Use only the rows that satisfy the condition. You can repeat --where
     ///
-    /// In COLUMN=VALUE, VALUE is a number in the unit of the column, a number with another unit, or a text. A
+    /// In COLUMN=VALUE, VALUE is a number in the unit of the column, a number with a unit, or a text. A
     /// comparison may have several parts, such as 'lift_mean_mn > 1 and drive_frequency < 0.1 kHz'. Put text
     /// in a comparison in quotes: "device == 'long'". If the picture does not show an axis of the sweep, flap
     /// draws only the rows at the middle value of this axis. Use --where to choose a different value of the
@@ -79,8 +79,9 @@ pub(crate) struct PlotArgs {
     /// In a tornado, show for each parameter the change of the measure per standard deviation of this
     /// parameter. flap computes this change twice: from derivatives and from the sample
     ///
-    /// The derivatives are the columns of [gradient], averaged over the designs. If the file has no columns of
-    /// [gradient], flap computes the derivatives at the means of the parameters, with the sidecar of the results.
+    /// The derivatives are the columns of [gradient], averaged over the designs. If the file has no columns
+    /// of [gradient], flap computes the derivatives at the means of the parameters, from the grid in the
+    /// sidecar.
     #[arg(long, conflicts_with = "html")]
     pub(crate) derivatives: bool,
 

@@ -21,9 +21,9 @@ pub(crate) struct SweepArgs {
     #[arg(short = 'g', long = "grid", value_name = "GRID", conflicts_with = "first_grid")]
     named_grid: Option<PathBuf>,
 
-    /// File for the rows; `-` prints the rows to stdout. The ending of the name sets the format: .csv, .csv.zst or .parquet.
-    /// [default: `path` in [output] of the grid file. Without `path`, the grid file's name with the ending .csv, in the
-    /// working directory]
+    /// File for the rows; `-` prints the rows to stdout. The ending of the name sets the format: .csv,
+    /// .csv.zst or .parquet. [default: the path in [output] of the grid file; without this path, the grid
+    /// file's name with the ending .csv, in the working directory]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
@@ -78,7 +78,7 @@ pub(crate) struct CheckArgs {
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 
-    /// Estimate the time of part I of N equal parts, which `flap sweep --shard I/N` runs
+    /// Estimate the time of `flap sweep --shard I/N`, which runs part I of N equal parts
     #[arg(long, value_name = "I/N")]
     pub(crate) shard: Option<Shard>,
 

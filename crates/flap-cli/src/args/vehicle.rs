@@ -55,7 +55,8 @@ pub(crate) struct VehicleArgs {
     #[arg(long)]
     pub(crate) hover: bool,
 
-    /// Simulate a flight of this duration, such as 0.5s, and print the means over each wing beat
+    /// Simulate a flight of this duration, such as 0.5s, and print the mean states, inputs, force and torque
+    /// of each wing beat
     ///
     /// The simulation couples the motions of wings and body. --fly requires the entries that --hover requires.
     #[arg(long, value_name = "TIME", value_parser = time, conflicts_with_all = ["wrench_map", "damping", "hover", "export"])]

@@ -132,8 +132,8 @@ fn without_numbers(args: &DescribeArgs, table: &Table) -> Failure {
     }))
 }
 
-/// Returns the number of rows with each status, and the rows to summarize. These are all rows if `all` is
-/// true, otherwise only rows with a periodic motion.
+/// Returns the number of rows with each status, and the rows to summarize. If `all` is false, only rows with
+/// a periodic motion are summarized.
 fn statuses(table: &Table, status: usize, all: bool) -> (Vec<Count>, Vec<usize>) {
     let rows: Vec<usize> = (0..table.rows).collect();
     let levels = Levels::of(table, status, &rows);

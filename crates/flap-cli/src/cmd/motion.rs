@@ -11,8 +11,8 @@ use crate::failure::Failure;
 use crate::job;
 use crate::print::{Keyed, write_motions};
 
-/// Writes a motion to a CSV file, and prints the number of rows. `row` is the word that this message uses for
-/// a row, such as "sample". If the path is `-`, the motion goes to stdout.
+/// Writes a motion to a CSV file, and prints the number of rows. `row` is the word that flap prints for a
+/// row, such as "sample". If the path is `-`, the motion goes to stdout.
 ///
 /// # Errors
 ///

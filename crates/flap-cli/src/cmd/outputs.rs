@@ -10,8 +10,8 @@ use flap_sweep::files::results::Format;
 use crate::console::is_stdout;
 use crate::failure::Failure;
 
-/// Checks the names of output files that contain CSV tables: the checks of [`check`], and the endings of the
-/// names.
+/// Checks the names of output files for CSV tables. The function makes the checks of [`check`], and also
+/// checks the endings of the names.
 ///
 /// # Errors
 ///
@@ -27,7 +27,7 @@ pub(crate) fn check_tables<'p>(
     check(inputs, outputs)
 }
 
-/// Checks the names of output files. A command calls this function before it computes anything.
+/// Checks the names of output files. Commands call this function before any computation.
 ///
 /// # Errors
 ///

@@ -272,7 +272,8 @@ pub(super) fn find_parameter(parameters: &[Parameter], name: &str) -> Result<usi
     })
 }
 
-/// Parses `text` as the value of a parameter. Messages about mistakes begin with `option`.
+/// Parses `text` as the value of a parameter. Error messages begin with the name of the command-line option
+/// `option`.
 pub(super) fn value(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
     // As in a grid file, a number without a unit is in SI units.
     value::of_text(parameter, text, UnitOf::TextOrSi).map_err(|error| {

@@ -126,7 +126,7 @@ fn edge_range(args: &RespondArgs, plan: &Plan, along: &Along, name: &str) -> Res
     Ok(EdgeRange::new(plan, along, index, range, step)?)
 }
 
-/// Parses a step of a parameter, which must be more than zero.
+/// Parses a step of a parameter. The step must be more than zero.
 fn positive_step(parameter: &Parameter, option: &str, text: &str) -> Result<f64, Failure> {
     let number = units::parse_or_si(text, parameter.unit).map_err(|error| {
         let failure = Failure::usage(format!("{option} {text}: {}", error.message("the value")));

@@ -147,7 +147,7 @@ fn trajectories(designs: &[Design], path: &Path, args: &RunArgs) -> Result<(), F
     write_motions_file(&keyed, path, args.overwrite.force, "sample")
 }
 
-/// If the user gave an option that simulates only one wing, not a vehicle, returns this option.
+/// If the user gave an option that does not support vehicles, returns this option.
 fn one_wing_option(args: &RunArgs) -> Option<&'static str> {
     let options = [
         (args.trajectory.is_some(), "--trajectory"),

@@ -145,7 +145,8 @@ impl Best {
     }
 }
 
-/// For each reason why a row has no rank, the number of rows.
+/// Numbers of rows without a rank: rows that are not periodic, and rows without a value in the ranking
+/// column.
 #[derive(Default)]
 struct LeftOut {
     other_statuses: u64,

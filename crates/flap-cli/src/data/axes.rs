@@ -14,8 +14,8 @@ pub(crate) struct Axes {
     /// True if the points are a sample, in which most values of a parameter differ, so that the points form
     /// no grid.
     pub(crate) sampled: bool,
-    /// Columns among `columns` that belong to a sample. The other parameters of the sample are not in
-    /// `columns`, because these columns determine their values.
+    /// Columns among `columns` that belong to a sample. If a column determines the values of other parameters
+    /// of the sample, `columns` does not contain these other parameters.
     pub(crate) sample: Vec<usize>,
     /// Columns among `columns` that contain words instead of numbers.
     pub(crate) words: Vec<usize>,
@@ -103,7 +103,7 @@ impl Ends {
     }
 }
 
-/// Returns the columns of all parameters of a sample, which the sidecar lists. Without a sidecar, returns the
+/// Returns the columns of all sampled parameters that the sidecar lists. Without a sidecar, returns the
 /// columns in `sample` and the columns whose values are determined by a column in `sample`.
 fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let kept_sample = || kept.iter().filter(|(column, _)| sample.contains(column));
@@ -140,8 +140,8 @@ fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     kept.iter().filter(looks_sampled).map(|(column, _)| *column).collect()
 }
 
-/// Smallest number of sample points for which a sample that is combined with axes is recognised without a
-/// sidecar.
+/// Without a sidecar, flap recognises a sample that is combined with axes only if it has at least this number
+/// of points.
 const FEWEST: usize = 8;
 
 /// Returns true if the values of two columns determine each other but have different orders. Two columns of

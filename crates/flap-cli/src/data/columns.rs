@@ -8,7 +8,8 @@ use crate::failure::Failure;
 /// Columns of a results file. Only the columns that the command needs have cells.
 pub(crate) struct Table {
     pub(crate) columns: Vec<Column>,
-    /// Number of rows in this table. It may be smaller than the number of accepted rows in the file.
+    /// Number of rows in this table. This number is smaller than `of` if flap keeps only some rows of a large
+    /// file.
     pub(crate) rows: usize,
     /// Number of rows in the file that satisfy the conditions.
     pub(crate) of: usize,

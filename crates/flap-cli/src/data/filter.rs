@@ -60,8 +60,8 @@ impl TextColumn {
         TextColumn { column, name: name.to_owned(), words: RefCell::default() }
     }
 
-    /// Returns the position in `wanted` of the word in the row. If `wanted` does not contain this word,
-    /// returns the length of `wanted`.
+    /// Returns the index in `wanted` of the word that the row contains. If `wanted` does not contain this
+    /// word, returns the length of `wanted`.
     fn place(&self, row: &StringRecord, wanted: &[impl AsRef<str>]) -> usize {
         let word = cell(row, self.column);
         let mut words = self.words.borrow_mut();
@@ -226,8 +226,8 @@ impl Filters {
     }
 }
 
-/// Returns the question whether the user meant a unit with a prefix, such as mN instead of N, for a number
-/// without a unit. `usual` is a typical number of the column, from which flap guesses the prefix.
+/// If a number without a unit looks too large or too small, returns the question whether the user meant a
+/// unit with a prefix. `usual` is a typical number of the column, for comparison.
 pub(crate) fn prefix_question(name: &str, unit: &str, wanted: f64, usual: f64) -> Option<String> {
     let meant = units::meant(wanted, usual, unit).filter(|meant| *meant != wanted)?;
     let text = shown_in(meant, unit);

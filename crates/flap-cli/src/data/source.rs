@@ -18,7 +18,7 @@ use crate::args::ReadArgs;
 use crate::failure::Failure;
 use crate::{console, job, models};
 
-/// Largest number of rows that flap reads, because it keeps all numbers of these rows in memory.
+/// Largest number of rows that flap reads, because flap keeps all numbers of these rows in memory.
 const MOST_ROWS: usize = 20_000_000;
 
 /// An open results file whose header has been read.
@@ -163,16 +163,16 @@ impl Source {
     }
 }
 
-/// A column during the reading of a file: the cells of the rows so far.
+/// A column of a file that flap is reading: the cells of the rows so far.
 struct Gathered {
     cells: Cells,
     codes: HashMap<String, u32>,
-    /// Texts of the first cells of a column of numbers. If a later cell is a word, flap treats these texts as
-    /// words too.
+    /// Texts of the first cells of a column of numbers. If a later cell is a word, flap treats the texts of
+    /// the earlier cells as words too.
     texts: StringRecord,
 }
 
-/// Largest number of cells of a column of numbers that flap also stores as text. The texts need more memory
+/// In a column of numbers, flap stores the texts of at most this number of cells. The texts need more memory
 /// than the numbers.
 const MOST_TEXTS: usize = 100_000;
 
@@ -284,8 +284,8 @@ fn refined(plan: &Plan) -> Vec<RefinedAxis> {
     parameters.map(axis).collect()
 }
 
-/// The units of columns, which the plan in the sidecar determines. Without a sidecar, flap takes the units
-/// from the models and from the endings of the column names.
+/// The units of columns. The plan in the sidecar determines these units. Without a sidecar, flap takes the
+/// units from the models and from the endings of the column names.
 struct Units(BTreeMap<String, String>);
 
 impl Units {

@@ -46,7 +46,7 @@ pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sideca
     })
 }
 
-/// Returns the plan that a sidecar contains. Messages name the sidecar by its `path`.
+/// Returns the plan that a sidecar contains. Error messages contain `path`, the path of the sidecar.
 pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     sidecar.plan(models::all()).map_err(|error| {
         let failure = Failure::usage(format!("{}: {error}", path.display()));

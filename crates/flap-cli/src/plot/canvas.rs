@@ -73,7 +73,7 @@ const LARGEST: f64 = 4000.0;
 const MOST_PIXELS: f64 = (LARGEST * SCALE as f64) * (LARGEST * SCALE as f64);
 
 impl Canvas {
-    /// Returns the size of the picture that the options set.
+    /// Computes the size of the picture from the command-line options.
     ///
     /// # Errors
     /// `Usage` if the picture is too small for its text, or if it has too many pixels.

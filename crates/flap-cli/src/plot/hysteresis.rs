@@ -24,8 +24,8 @@ const MOST_CURVES: usize = 10;
 /// The index of the branch of unstable orbits in [`BRANCHES`].
 const UNSTABLE: usize = 2;
 
-/// The response curve of one design. The points of its branches are in the order of [`BRANCHES`] and in the
-/// printed units.
+/// The response curve of one design. The order of the branches is the order of [`BRANCHES`], and their points
+/// are in the units of the picture.
 struct Curve {
     name: String,
     branches: [Vec<(f64, f64)>; 3],

@@ -51,7 +51,7 @@ impl Table {
 }
 
 impl Levels {
-    /// Returns the distinct value number `place` as text, with its unit.
+    /// Returns the value with the index `place` in the list of distinct values, as text with its unit.
     pub(super) fn text(&self, place: usize, label: &Label) -> String {
         match &self.values {
             Values::Numbers(values) => label.value(values[place]),

@@ -1,4 +1,4 @@
-//! Maps: cells over two parameters, whose colours show a measure.
+//! Pictures of maps: the colours of cells show a measure over two parameters.
 
 use kuva::render::color::Color;
 use kuva::render::layout::ComputedLayout;
@@ -271,8 +271,8 @@ fn several_rows(table: &Table, selection: &Selection) -> Failure {
     Failure::usage(message).help("choose one value of each of the other parameters with --where")
 }
 
-/// Returns the boundaries of the cells along an axis. A boundary is halfway between two neighbouring values,
-/// and the outer boundaries are equally far from the first and the last value.
+/// Returns the boundaries of the cells along an axis. Inner boundaries are halfway between neighbouring
+/// values. The first and the last value are in the middle of their cells.
 fn edges(values: &[f64], log: bool) -> Vec<f64> {
     let to = |value: f64| if log { value.ln() } else { value };
     let from = |place: f64| if log { place.exp() } else { place };

@@ -107,7 +107,7 @@ impl Panel {
             .with_y_label_wrap(letters(upright, label))
     }
 
-    /// Returns the layout before line breaks in long texts, and ticks, are added.
+    /// Returns the layout without ticks and without line breaks in long texts.
     fn unwrapped(&self, size: Size) -> Layout {
         let mut layout = Layout::auto_from_plots(&self.plots)
             .with_width(size.width)

@@ -1,5 +1,5 @@
-//! Pictures of Pareto fronts: two measures of every design, and the front. No other design is better in both
-//! measures than a design on the front.
+//! Pictures of Pareto fronts: two measures of every design, and the front. A design is on the front if no
+//! other design is better in both measures.
 
 use flap_sweep::picture::colours::{DARK, PLAIN};
 use kuva::plot::legend::{LegendEntry, LegendShape};

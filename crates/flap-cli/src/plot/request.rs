@@ -1,4 +1,4 @@
-//! The picture that the user requested, with columns as positions in the file.
+//! The picture that the user requested. Columns are given by their positions in the file.
 
 use flap_sweep::derivative;
 use flap_sweep::picture::measures::{Role, usual};
@@ -16,10 +16,10 @@ const NEEDED: [&str; 7] =
 /// The name of the column that contains the names of the inputs in the output of `flap vehicle`.
 pub(super) const INPUT: &str = "input";
 
-/// The word in the column `input` of the row that contains the mean force and torque.
+/// The row with the mean force and torque has this word in the column `input`.
 pub(super) const MEAN: &str = "mean";
 
-/// The picture that the user requested, with columns as positions in the file.
+/// The picture that the user requested. Columns are given by their positions in the file.
 pub(super) struct Request<'a> {
     pub(super) args: &'a PlotArgs,
     names: Vec<String>,
@@ -31,8 +31,8 @@ pub(super) struct Request<'a> {
     pub(super) filters: Vec<(usize, String)>,
     /// The axes of `--best-over`.
     pub(super) best_over: Vec<usize>,
-    /// The columns from 1 up to this position, without its end, are parameters. The position is the column
-    /// `branch` or `status`, or 0 if the file has neither column.
+    /// The columns from 1 to `parameters_end` - 1 are parameters, and the column `parameters_end` is `branch`
+    /// or `status`. If the file has neither column, `parameters_end` is 0.
     pub(super) parameters_end: usize,
     /// The measure that a response picture shows over a parameter by default.
     pub(super) response: Option<usize>,

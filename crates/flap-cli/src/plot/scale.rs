@@ -15,8 +15,8 @@ pub(super) fn extent(points: &[(f64, f64)]) -> Option<[(f64, f64); 2]> {
     Some([range(points.iter().map(|point| point.0))?, range(points.iter().map(|point| point.1))?])
 }
 
-/// Returns a range that is larger by the fraction `share` of its width on both sides. If the given range is
-/// empty, the result still has a width.
+/// Returns the given range with a margin on both sides. The margin is the fraction `share` of the width of
+/// the range. If the given range is empty, the result still has a width.
 pub(super) fn padded((low, high): (f64, f64), share: f64) -> (f64, f64) {
     let width = high - low;
     // Numbers that differ only by rounding count as equal.

@@ -149,7 +149,7 @@ fn check_span(table: &Table, columns: &Columns, rows: &[usize]) -> Result<(), Fa
     Ok(())
 }
 
-/// Returns a value that the user typed as text in the unit of the picture.
+/// Converts a value that the user typed into the unit of the picture, and returns the value as text.
 fn shown(table: &Table, column: usize, typed: &str) -> String {
     let Column { name, unit, .. } = &table.columns[column];
     match filter::number(name, unit, typed) {

@@ -38,8 +38,8 @@ pub(super) fn filtered(table: &Table, filters: &[(usize, String)]) -> Result<Vec
     Ok(rows)
 }
 
-/// Returns the question whether the user meant a unit with a prefix, if a number without a unit does not fit
-/// the column.
+/// If a number without a unit looks too large or too small, returns the question whether the user meant a
+/// unit with a prefix.
 fn prefix_question(table: &Table, column: usize, text: &str) -> Option<String> {
     let Column { name, unit, .. } = &table.columns[column];
     let usual = *table.numbers(column).ok()?.first()?;

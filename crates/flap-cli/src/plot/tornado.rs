@@ -20,8 +20,8 @@ const MOST_BARS: usize = 20;
 /// The height of a bar as a fraction of the distance between two bars.
 const THICK: f64 = 0.62;
 
-/// If the magnitude of a correlation is larger, its number is written inside the bar, otherwise beside the
-/// bar.
+/// If the magnitude of a correlation is larger than this number, its value is written inside the bar,
+/// otherwise beside the bar.
 const LONG: f64 = 0.82;
 
 /// Draws the correlations of the parameters with the measure in column `x`. The largest correlation is at the

@@ -22,7 +22,7 @@ use crate::failure::Failure;
 /// Largest number of points in a line. Longer lines are thinned.
 const MOST_POINTS: usize = 8000;
 
-/// The angles that the picture shows. The names of their columns begin with these words.
+/// The angles that the picture shows. The column names of the angles begin with these words.
 const ANGLES: [&str; 2] = ["stroke", "pitch"];
 
 /// Largest number of motions in a picture, because the reader cannot distinguish a larger number of motions.
@@ -116,7 +116,8 @@ fn draw_several(
     Ok(figure(panels, Arrangement::Below, &selection.title, &selection.notes, size))
 }
 
-/// Draws one motion over time, and its phase portraits beside it, or below it in a narrow picture.
+/// Draws one motion over time in a first panel, and its phase portraits in a second panel. In a narrow
+/// picture, the second panel is below the first panel, otherwise beside it.
 fn draw_one(table: &Table, selection: &Selection, size: Size) -> Result<Scene, Failure> {
     let time = table.numbers(selection.columns.x)?;
     let label = table.label(selection.columns.x);

@@ -116,8 +116,8 @@ struct Entry {
     name: String,
     /// Value of a parameter in the preset or file, in SI units. Empty without a value.
     value: String,
-    /// Value with a prefixed unit and the standard error, such as `1.52 µN·m/rad`. Without values, only the
-    /// unit.
+    /// Value with a unit prefix and the standard error, such as `1.52 uN*m/rad ± 0.05 uN*m/rad`. If the list
+    /// contains no values, only the unit.
     shown: String,
     unit: &'static str,
     symbol: &'static str,

@@ -28,7 +28,7 @@ pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemErr
     Failure::usage(format!("{place}: {error}")).helps(&error.help)
 }
 
-/// Returns the settings of the search that the command line contains.
+/// Returns the search settings from the command line.
 pub(super) fn settings(args: &OptimiseArgs) -> Settings {
     Settings {
         run: RunOptions::with_threads(args.threads),

@@ -1,5 +1,5 @@
 //! Names that consist of several parts: columns of derivatives, and names that begin with the name of a wing.
-//! This module also explains the names of vehicles.
+//! This module also explains the names of a vehicle's parameters and columns.
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Rows, Simulator};
@@ -47,7 +47,8 @@ fn wings(name: &str) -> impl Iterator<Item = &str> {
     name.match_indices('_').map(|(end, _)| &name[..end])
 }
 
-/// Returns a vehicle with two wings of the model: a wing called `left`, and its mirror image.
+/// Returns a vehicle with two wings of the model. The first wing has the name `left`, and the second wing is
+/// the mirror image of the first wing.
 fn vehicle(model: &'static dyn Simulator, left: &str) -> Option<Vehicle> {
     let mount = |name: &str, mirrored| Mount { name: name.to_owned(), mirrored };
     let right = if left == "right" { "other" } else { "right" };

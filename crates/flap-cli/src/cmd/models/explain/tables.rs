@@ -3,7 +3,7 @@
 /// A kind of column, and the names and meanings of the columns of this kind.
 type Columns = (&'static str, &'static [(&'static str, &'static str)]);
 
-/// The columns of these tables, grouped by the command that prints the table.
+/// Columns of tables that commands print, grouped by command.
 pub(super) const TABLES: &[Columns] = &[
     (
         "a column of chirps (`flap test chirp`)",
