@@ -46,12 +46,13 @@ pub(crate) enum Exit {
 /// The reason why a command failed.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The command line or the grid file has a mistake. The fields are the message and the help lines.
+    /// The command line or the grid file has a mistake. The fields of the variant are the message and the
+    /// help lines.
     Usage(String, Vec<String>),
     /// The grid file has mistakes.
     Grid(Mistakes),
-    /// The operating system returned an error, or results are damaged. The fields are the message and the
-    /// help lines.
+    /// The operating system returned an error, or results are damaged. The fields of the variant are the
+    /// message and the help lines.
     System(String, Vec<String>),
     /// An internal error in flap.
     Bug(String),

@@ -9,8 +9,8 @@ use super::options::{BeginArgs, ChangeArgs, OutputFormat, SolverArgs};
 pub(crate) struct RespondArgs {
     /// Preset, device file or grid file; `-` reads a grid from stdin
     ///
-    /// The grid may have an axis for the followed parameter. Each combination of the values of the remaining axes is
-    /// one design with one curve.
+    /// The grid may have an axis for the followed parameter. Each combination of values of the axes without
+    /// the followed parameter is one design with one curve.
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 

@@ -382,8 +382,8 @@ fn comparison(text: &str, scope: &ColumnScope<'_>) -> Result<Expression, Failure
     }
 }
 
-/// Returns the number that stands for a cell in a comparison. An empty cell is NaN, and a word is its
-/// position among the known words.
+/// Returns the number that stands for a cell in a comparison. An empty cell becomes NaN, and a status or
+/// branch becomes its index in the list of all statuses or branches.
 fn value(name: &str, cell: &str) -> Result<f64, Failure> {
     let among = |options: &[&str]| options.iter().position(|option| *option == cell);
     let found = match name {
