@@ -1,14 +1,14 @@
 //! Motion of the body through still air, and the motion of a wing's sections that results from it.
 //!
-//! The body moves with constant velocity and rates in its own axes while the wings settle. `docs/models/body-motion.md`
-//! derives the equations.
+//! While the motion of the wings settles, the velocity and the angular velocity of the body are constant in
+//! body axes. `docs/models/body-motion.md` derives the equations.
 
 use crate::num::Real;
 use crate::parameter::Kind::{Choice, Number};
 use crate::parameter::Range::Any;
 use crate::parameter::{Invalid, Parameter};
 
-/// Name of the parameter with the response of the wings.
+/// Name of the parameter that selects whether the wings respond to the motion of the body.
 const RESPONSE: &str = "body_response";
 
 crate::choice! {
@@ -22,28 +22,30 @@ crate::choice! {
 }
 
 crate::parameters! {
-    /// Velocity and rates of the body, in body axes, relative to still air.
+    /// Velocity and angular velocity of the body relative to still air, in body axes.
     pub struct BodyParameters {
         ["body motion"]
-        /// Forward velocity of the body through still air, at the reference point of the torques. For a single wing,
-        /// velocity of the shoulder in the direction of a positive stroke.
+        /// Forward velocity of the body through still air, at the reference point of the torques. For a
+        /// single wing, the parameter is the velocity of the shoulder in the direction of a positive stroke.
         body_velocity_forward: f64 = ("m/s", "u", Number(Any), default: 0.0),
-        /// Velocity of the body to the left. For a single wing, velocity of the shoulder along the span.
+        /// Velocity of the body to the left. For a single wing, the parameter is the velocity of the shoulder
+        /// along the span.
         body_velocity_left: f64 = ("m/s", "v", Number(Any), default: 0.0),
-        /// Upward velocity of the body. For a single wing, velocity of the shoulder along the stroke axis.
+        /// Upward velocity of the body. For a single wing, the parameter is the velocity of the shoulder
+        /// along the stroke axis.
         body_velocity_up: f64 = ("m/s", "w", Number(Any), default: 0.0),
-        /// Roll rate of the body. A positive rate lifts the left side. For a single wing, rate of the shoulder about the
-        /// direction of a positive stroke.
+        /// Roll rate of the body. A positive rate lifts the left side. For a single wing, the parameter is
+        /// the angular velocity of the shoulder about the direction of a positive stroke.
         body_rate_roll: f64 = ("rad/s", "p", Number(Any), default: 0.0),
-        /// Pitch rate of the body. A positive rate lowers the nose. For a single wing, rate of the shoulder about the span
-        /// at zero stroke.
+        /// Pitch rate of the body. A positive rate lowers the nose. For a single wing, the parameter is the
+        /// angular velocity of the shoulder about the span at zero stroke.
         body_rate_pitch: f64 = ("rad/s", "q", Number(Any), default: 0.0),
-        /// Yaw rate of the body. A positive rate turns the nose to the left. For a single wing, rate of the shoulder about
-        /// the stroke axis.
+        /// Yaw rate of the body. A positive rate turns the nose to the left. For a single wing, the parameter
+        /// is the angular velocity of the shoulder about the stroke axis.
         body_rate_yaw: f64 = ("rad/s", "r", Number(Any), default: 0.0),
-        /// Response of the wings to the motion of the body. With "passive", stroke and pitch respond to the motion of
-        /// the body. With "frozen", the wings move as if the body were at rest, and only the loads on the body change.
-        /// The option "frozen" requires a vehicle if the body moves.
+        /// Response of the wings to the motion of the body. With "passive", stroke and pitch respond to the
+        /// motion of the body. With "frozen", the wings move as if the body were at rest, and only the loads
+        /// on the body change. If the body moves, the option "frozen" requires a vehicle.
         body_response: BodyResponse = ("", "", Choice(BodyResponse::NAMES)),
     }
 }
@@ -60,7 +62,8 @@ impl BodyParameters {
         body_response: BodyResponse::Passive,
     };
 
-    /// Names of the parameters of velocity and rates, in the order of the parameter table.
+    /// Names of the six parameters for the velocity and the angular velocity of the body, in the order of the
+    /// parameter table.
     pub const MOTION: [&'static str; 6] = [
         "body_velocity_forward",
         "body_velocity_left",
@@ -70,7 +73,7 @@ impl BodyParameters {
         "body_rate_yaw",
     ];
 
-    /// Returns the terms that the motion of the body adds to the equations.
+    /// Returns the kind of terms that the motion of the body adds to the equations of a wing.
     pub fn terms(&self) -> BodyTerms {
         let BodyMotion { velocity, rate } = self.motion();
         if velocity.into_iter().chain(rate).all(|component| component == 0.0) {
@@ -82,7 +85,7 @@ impl BodyParameters {
         }
     }
 
-    /// Returns the velocity and the rates of the body as constants of the equations.
+    /// Returns the velocity and the angular velocity of the body, in the form that the equations use.
     pub fn motion(&self) -> BodyMotion<f64> {
         BodyMotion {
             velocity: [self.body_velocity_forward, self.body_velocity_left, self.body_velocity_up],
@@ -92,7 +95,8 @@ impl BodyParameters {
 
     /// Checks that the `values` of a single wing do not combine a motion of the body with the response "frozen".
     ///
-    /// With "frozen", only the load on a vehicle contains the motion of the body.
+    /// With "frozen", the motion of the body changes only the loads on a vehicle, and has no effect on a
+    /// single wing.
     ///
     /// # Errors
     /// An error if the body moves and the response is "frozen".
@@ -108,7 +112,8 @@ impl BodyParameters {
         Ok(())
     }
 
-    /// Returns the `values` with the response "passive", with which lift and drag contain the motion of the body.
+    /// Returns a copy of `values` in which the response is "passive". With this response, the motion of the
+    /// body changes lift and drag.
     pub(crate) fn passive(parameters: &[Parameter<'_>], values: &[f64]) -> Vec<f64> {
         let mut values = values.to_vec();
         if let Some(index) = Parameter::index(parameters, RESPONSE) {
@@ -123,16 +128,17 @@ impl BodyParameters {
 pub enum BodyTerms {
     /// The body is at rest.
     None,
-    /// The motion of the body is in the loads only.
+    /// Only the equations for the loads contain the motion of the body.
     Loads,
-    /// The motion of the body is in the equations of motion and in the loads.
+    /// The equations of motion and the equations for the loads contain the motion of the body.
     All,
 }
 
 crate::per_lane! {
     /// Velocity (m/s) and angular velocity (rad/s) of a wing's shoulder relative to still air.
     ///
-    /// The axes point in the direction of a positive stroke, along the span at zero stroke, and along the stroke axis.
+    /// The components are along three axes: the direction of a positive stroke, the span at zero stroke, and
+    /// the stroke axis.
     pub struct BodyMotion<R> {
         /// Velocity V.
         pub velocity: [R; 3],
@@ -147,8 +153,8 @@ impl BodyMotion<f64> {
 }
 
 impl<R: Real> BodyMotion<R> {
-    /// Returns the motion of the shoulder along the axes of a wing, which rotate with the wing, at a stroke angle
-    /// (rad).
+    /// Returns the motion of the shoulder along the axes of the wing at a stroke angle (rad). The axes rotate
+    /// with the stroke.
     ///
     /// ```text
     /// e_s = (sin φ, cos φ, 0)     e_t = (cos φ, −sin φ, 0)
@@ -172,22 +178,23 @@ impl<R: Real> BodyMotion<R> {
 /// (stroke axis).
 #[derive(Clone, Copy, Debug)]
 pub struct Shoulder<R> {
-    /// Velocity along e_t (m/s).
+    /// Component of the shoulder's velocity along the axis e_t (m/s).
     pub velocity_t: R,
-    /// Velocity along e_s (m/s).
+    /// Component of the shoulder's velocity along the axis e_s (m/s).
     pub velocity_s: R,
-    /// Velocity along e_z (m/s).
+    /// Component of the shoulder's velocity along the axis e_z (m/s).
     pub velocity_z: R,
-    /// Angular velocity about e_t (rad/s).
+    /// Angular velocity of the shoulder about the axis e_t (rad/s).
     pub rate_t: R,
-    /// Angular velocity about e_s (rad/s).
+    /// Angular velocity of the shoulder about the axis e_s (rad/s).
     pub rate_s: R,
-    /// Angular velocity about e_z (rad/s).
+    /// Angular velocity of the shoulder about the axis e_z (rad/s).
     pub rate_z: R,
 }
 
 impl<R: Real> Shoulder<R> {
-    /// Returns a shoulder at rest, in the number type of `number`.
+    /// Returns the motion of a shoulder at rest: all components are zero, of the same number type as
+    /// `number`.
     #[inline(always)]
     pub fn rest(number: R) -> Shoulder<R> {
         let zero = number.lit(0.0);
@@ -201,8 +208,8 @@ impl<R: Real> Shoulder<R> {
         }
     }
 
-    /// Returns the motion of the wing's sections. `stroke_rate` and `pitch_rate` are φ̇ and ψ̇ (rad/s), and `cos` is
-    /// the cosine of the pitch ψ.
+    /// Returns the motion of the wing's sections relative to still air. `stroke_rate` and `pitch_rate` are φ̇
+    /// and ψ̇ (rad/s), and `cos` is the cosine of the pitch ψ.
     #[inline(always)]
     pub fn sections(&self, stroke_rate: R, pitch_rate: R, cos: R) -> Sections<R> {
         Sections {
@@ -220,11 +227,12 @@ impl<R: Real> Shoulder<R> {
         pitch_rate + self.rate_s
     }
 
-    /// Returns the inertial moment g per rate (N·m·s) of a thin wing on a turning body, at first order in the angular
-    /// velocity Ω. `inertia` is ∫ d² dm and `product` is ∫ r d dm (kg·m²), with the distance d behind the pitch axis.
+    /// Returns the factor g (N·m·s) of the gyroscopic moments on a thin wing, if the body has the angular
+    /// velocity Ω. Terms of second order in Ω are neglected. `inertia` is ∫ d² dm and `product` is ∫ r d dm
+    /// (kg·m²), with the radius r and the distance d behind the pitch axis.
     ///
-    /// The inertial moment is −g φ̇ about the pitch axis and g ψ̇ about the stroke axis. The total power of both
-    /// moments is zero.
+    /// The gyroscopic moment is −g φ̇ about the pitch axis and g ψ̇ about the stroke axis. The total power of
+    /// these two moments is zero.
     ///
     /// ```text
     /// g = 2 sin ψ (I (Ω_t sin ψ + Ω_z cos ψ) − I_xz Ω_s)
@@ -237,8 +245,8 @@ impl<R: Real> Shoulder<R> {
     /// Returns the changes [e₀, e₁, e₂] that the motion of the body causes in the normal acceleration of the wing's
     /// sections.
     ///
-    /// e₀ is the change of the constant part, e₁ the change of the part per radius, and e₂ the change of the pitch
-    /// acceleration. `rates` are the stroke rate φ̇ and the pitch rate ψ̇ (rad/s).
+    /// At the radius r and the distance d behind the pitch axis, the normal acceleration changes by e₀ + r e₁
+    /// − d e₂. The first argument contains the stroke rate φ̇ and the pitch rate ψ̇ (rad/s).
     ///
     /// ```text
     /// u̇_n = r (A + e₁) + e₀ − d (ψ̈ + e₂)
@@ -254,7 +262,7 @@ impl<R: Real> Shoulder<R> {
     }
 }
 
-/// Motion of the sections of a wing relative to still air, in the plane of e_t and e_z.
+/// Motion of the sections of a wing relative to still air, in the plane of the axes e_t and e_z.
 ///
 /// At the radius r and the distance d behind the pitch axis, the velocity of the section has these components:
 ///
@@ -267,10 +275,11 @@ pub struct Sections<R> {
     pub stroke_rate: R,
     /// Sweep rate relative to still air, (ψ̇ + Ω_s) cos ψ (rad/s).
     pub sweep_rate: R,
-    /// Velocity a, which is equal for all sections (m/s).
+    /// Component a of the shoulder's velocity along the axis e_t (m/s). The velocity a is equal for all
+    /// sections.
     pub along: R,
-    /// Velocity V_z along the stroke axis (m/s).
+    /// Component V_z of the shoulder's velocity along the stroke axis (m/s).
     pub up: R,
-    /// Angular velocity Ω_t about e_t (rad/s).
+    /// Angular velocity Ω_t of the shoulder about the axis e_t (rad/s).
     pub tilt_rate: R,
 }

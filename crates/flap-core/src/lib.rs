@@ -6,10 +6,11 @@
 //!
 //! - [`num`]: number types of models and integrators: scalars and SIMD lanes
 //! - [`ode`]: Dormand-Prince 5(4), for one run or for many runs in lanes
-//! - [`parameter`]: names, units, ranges and descriptions of a design point's numbers
+//! - [`parameter`]: names, units, ranges and descriptions of the parameters of a design point
 //! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`springs`], [`body`], [`aero`], [`modes`]: components that several models use
-//! - [`model`]: the published models: parameters → constants → equations of motion → signals
-//! - [`measure`]: measures of a motion, for any model
+//! - [`model`]: the published models, from the parameters to the constants, the equations of motion and the
+//!   signals
+//! - [`measure`]: computation of measures from a motion, for any model
 //! - [`simulate`]: computation of rows from design points; chirps, impulses and imposed motions
 //! - [`vehicle`]: sums of the forces and torques of several wings
 
@@ -29,5 +30,6 @@ pub mod simulate;
 pub mod springs;
 pub mod vehicle;
 
-/// Hash of this crate's sources, in hexadecimal digits. Builds with equal hashes compute equal rows.
+/// Hash of this crate's source files, in hexadecimal digits. Two builds of flap with equal hashes compute
+/// equal rows.
 pub const SOURCES: &str = env!("FLAP_SOURCES");

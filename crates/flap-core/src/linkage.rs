@@ -1,16 +1,16 @@
-//! Linkages of transmissions: slider-crank and planar four-bar.
+//! Linkages for transmissions: slider-crank and planar four-bar linkages.
 //!
-//! In the planar four-bar the input link L₁ turns about the origin and the output link L₃ about (L₀, 0). The coupler L₂
-//! connects the end A of the input link with the end B of the output link. The independent variable is the stroke angle
-//! θ: the output link is at the angle ψ = ψ_n + θ.
+//! In the planar four-bar linkage, the input link L₁ turns about the origin, and the output link L₃ turns
+//! about the point (L₀, 0). The coupler L₂ connects the end A of the input link with the end B of the output
+//! link. The independent variable is the stroke angle θ: the output link is at the angle ψ = ψ_n + θ.
 
 use core::f64::consts::PI;
 
 use crate::num::Real;
 
 crate::per_lane! {
-    /// A slider-crank whose crank is perpendicular to the slider's line at rest, with the connecting rod along that
-    /// line.
+    /// A slider-crank linkage. At rest, the crank is perpendicular to the line on which the slider moves, and
+    /// the connecting rod lies on this line.
     pub(crate) struct SliderCrank<R> {
         /// Radius of the crank L_c (m).
         pub(crate) crank: R,
@@ -24,9 +24,9 @@ crate::per_lane! {
 pub(crate) struct SliderMotion<R> {
     /// Displacement δ of the slider.
     pub(crate) displacement: R,
-    /// First derivative δ_η.
+    /// First derivative δ_η of the displacement with respect to the crank angle.
     pub(crate) slope: R,
-    /// Second derivative δ_ηη.
+    /// Second derivative δ_ηη of the displacement with respect to the crank angle.
     pub(crate) bend: R,
 }
 
@@ -52,7 +52,7 @@ impl<R: Real> SliderCrank<R> {
 }
 
 crate::per_lane! {
-    /// A four-bar linkage, with the position of its links at zero stroke.
+    /// Dimensions of a four-bar linkage, and the positions of its links at zero stroke.
     pub struct FourBarLinkage<R> {
         /// Length of the ground link L₀ (m).
         ground: R,
@@ -60,41 +60,46 @@ crate::per_lane! {
         output: R,
         /// Square of the input link's length, L₁² (m²).
         input_square: R,
-        /// Half of the difference of the squares of the lengths of input link and coupler, ½(L₁² − L₂²) (m²).
+        /// The value ½(L₁² − L₂²), with the length L₁ of the input link and the length L₂ of the coupler
+        /// (m²).
         half_difference: R,
         /// Inverse of the square of the coupler's length, 1/L₂² (1/m²).
         inverse_coupler_square: R,
-        /// Angle of the output link at zero stroke ψ_n (rad).
+        /// Angle ψ_n of the output link at zero stroke (rad).
         pub neutral: R,
-        /// Component, along the ground link, of the input link's unit vector at zero stroke, divided by the input
-        /// link's length (1/m).
+        /// Coordinate of the input link's end at zero stroke, along the ground link, divided by L₁² (1/m).
         direction_x: R,
-        /// Component, perpendicular to the ground link, of the input link's unit vector at zero stroke, divided by the
-        /// input link's length (1/m).
+        /// Coordinate of the input link's end at zero stroke, perpendicular to the ground link, divided by
+        /// L₁² (1/m).
         direction_y: R,
     }
 }
 
-/// Positions of the links at one stroke angle θ, and the derivatives of the positions with respect to θ: ( )′ = d/dθ.
+/// Positions of the links at one stroke angle θ, and the derivatives of these positions. A prime means the
+/// derivative with respect to θ.
 #[derive(Clone, Copy, Debug)]
 pub struct FourBarMotion<R> {
-    /// End A of the input link (m), and its derivatives A′ and A″.
+    /// Position A of the input link's end (m), and its derivatives A′ and A″ with respect to the stroke
+    /// angle.
     pub a: [[R; 2]; 3],
-    /// End B of the output link (m), and its derivatives B′ and B″.
+    /// Position B of the output link's end (m), and its derivatives B′ and B″ with respect to the stroke
+    /// angle.
     pub b: [[R; 2]; 3],
-    /// First and second derivatives θ₁′ and θ₁″ of the input link's angle with respect to the stroke.
+    /// First derivative θ₁′ and second derivative θ₁″ of the input link's angle with respect to the stroke
+    /// angle.
     pub input: [R; 2],
-    /// First and second derivatives θ₂′ and θ₂″ of the coupler's angle with respect to the stroke.
+    /// First derivative θ₂′ and second derivative θ₂″ of the coupler's angle with respect to the stroke
+    /// angle.
     pub coupler: [R; 2],
-    /// Sine and cosine of the angle η of the input link, relative to its direction at zero stroke.
+    /// Sine and cosine of the angle η by which the input link has turned from its direction at zero stroke.
     pub turned: [R; 2],
 }
 
 impl FourBarLinkage<f64> {
     /// Returns the four-bar linkage, given the `lengths` (m) of ground link, input link, coupler and output link.
     ///
-    /// At zero stroke the output link has the angle `neutral` (rad). If the links cannot be assembled at zero stroke,
-    /// all numbers of the four-bar are NaN.
+    /// At zero stroke the output link has the angle `neutral` (rad). If the links cannot be assembled at zero
+    /// stroke, the direction of the input link is NaN.
     pub(crate) fn new(lengths: [f64; 4], neutral: f64) -> FourBarLinkage<f64> {
         let [ground, input, coupler, output] = lengths;
         let mut four_bar = FourBarLinkage {
@@ -134,7 +139,7 @@ impl<R: Real> FourBarLinkage<R> {
     /// θ₂′ = w×(B′ − A′) / L₂²     θ₂″ = w×(B″ − A″) / L₂²
     /// ```
     ///
-    /// If the links cannot be assembled, Q and all results are NaN.
+    /// If the links cannot be assembled, Q is NaN, and so are all results except B, B′ and B″.
     #[inline(always)]
     pub fn motion(&self, theta: R) -> FourBarMotion<R> {
         let (sin, cos) = (self.neutral + theta).sin_cos();
@@ -176,7 +181,7 @@ impl<R: Real> FourBarLinkage<R> {
 }
 
 crate::per_lane! {
-    /// Inertias of the moving links of a four-bar.
+    /// Inertias of the moving links of a four-bar linkage.
     pub struct LinkInertias<R> {
         /// Inertia of the input link about its pivot (kg·m²).
         pub input: R,
@@ -190,8 +195,8 @@ crate::per_lane! {
 }
 
 impl<R: Real> LinkInertias<R> {
-    /// Returns the inertia G of the links about the stroke axis (kg·m²), and half of its derivative, G′/2 (Arabagi et
-    /// al. 2013, Eq. 13).
+    /// Returns the inertia G of the links about the stroke axis, and half of its derivative with respect to
+    /// the stroke angle (kg·m²). The source is Eq. 13 of Arabagi et al. (2013).
     ///
     /// ```text
     /// G = Σ m_i |x_i′|² + Σ J_i θ_i′²     ½G′ = Σ m_i x_i′·x_i″ + Σ J_i θ_i′ θ_i″
@@ -216,8 +221,8 @@ impl<R: Real> LinkInertias<R> {
     }
 }
 
-/// Returns the root of `f` in the bracket, to rounding errors. The result is `None` if `f` has the same sign at both
-/// ends of the bracket.
+/// Returns the root of `f` between the two ends of `bracket`, with an error of the order of rounding errors.
+/// The result is `None` if `f` has the same sign at both ends.
 ///
 /// The method is regula falsi with the Illinois rule.
 fn root(f: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Option<f64> {
@@ -279,7 +284,7 @@ fn dot<R: Real>(a: [R; 2], b: [R; 2]) -> R {
     a[0].mul_add(b[0], a[1] * b[1])
 }
 
-/// Returns the component of the cross product a × b perpendicular to the plane.
+/// Returns the component of the cross product a × b that is perpendicular to the plane of a and b.
 #[inline(always)]
 fn cross<R: Real>(a: [R; 2], b: [R; 2]) -> R {
     a[0].mul_add(b[1], -(a[1] * b[0]))

@@ -4,7 +4,7 @@ use core::f64::consts::PI;
 
 use nalgebra::{Matrix2, Vector2};
 
-/// A small undamped motion and its natural frequency.
+/// Name and natural frequency of a small undamped oscillation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mode {
     /// Name, such as `mode_1`.
@@ -19,10 +19,10 @@ impl Mode {
         names.into_iter().zip(frequencies).map(|(name, frequency)| Mode { name, frequency }).collect()
     }
 
-    /// Returns the two modes of M q̈ + diag(K) q = 0, in ascending order of frequency.
+    /// Returns the two modes of the equation M q̈ + diag(K) q = 0, in ascending order of frequency.
     ///
-    /// If the mass matrix `mass` [M₁₁, M₁₂, M₂₂] is not positive definite, both frequencies are NaN. Each negative entry
-    /// of `stiffness` makes one frequency NaN.
+    /// If the mass matrix M with the entries [M₁₁, M₁₂, M₂₂] is not positive definite, both frequencies are
+    /// NaN. For each negative entry of `stiffness`, one frequency is NaN.
     pub(crate) fn coupled([m11, m12, m22]: [f64; 3], stiffness: [f64; 2]) -> Vec<Mode> {
         // M = L Lᵀ leads to an ordinary symmetric eigenvalue problem, L⁻¹ K L⁻ᵀ.
         let inverse =

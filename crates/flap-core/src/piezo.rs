@@ -3,7 +3,7 @@
 use crate::parameter::Kind::Number;
 use crate::parameter::Range::{NonNegative, Share};
 
-/// Permittivity of free space (F/m), rounded as in the values of the presets.
+/// Permittivity of free space (F/m), to the number of digits that the values of the presets assume.
 pub(crate) const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 /// One layer of a laminate.
@@ -17,7 +17,8 @@ pub struct Layer {
     pub density: f64,
 }
 
-/// A beam of bonded layers, of which the lowest begins at z = 0. Equation numbers refer to Ozaki and Hamaguchi (2018).
+/// A beam of bonded layers. The lower face of the lowest layer is at the height z = 0. Equation numbers refer
+/// to Ozaki and Hamaguchi (2018).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Laminate<const L: usize> {
     /// Heights of the layers' mid-planes (m): `z_i = Σ_{j≤i} t_j − t_i/2`.
@@ -31,7 +32,7 @@ pub struct Laminate<const L: usize> {
 }
 
 impl<const L: usize> Laminate<L> {
-    /// Returns the laminate of the given layers, beginning with the lowest layer.
+    /// Returns the laminate with the given layers, in order from the lowest to the highest layer.
     pub fn of(layers: [Layer; L]) -> Laminate<L> {
         let mut top = 0.0;
         let mid_planes = layers.map(|layer| {
@@ -55,15 +56,17 @@ impl<const L: usize> Laminate<L> {
 }
 
 crate::parameters! {
-    /// Dielectric loss and charge recovery.
+    /// Parameters for the dielectric loss of the actuator and for the charge recovery of the power supply.
     pub struct ElectricalParameters {
-        /// Dielectric loss factor tan delta of the actuator. The loss adds the current G (V - mean of V) with G = w C
-        /// tan delta. Here w is the angular drive frequency, C the capacitance and V the voltage. Measured impedances
-        /// of piezoelectric actuators correspond to a tan delta between 0.13 and 0.16 at large voltages.
+        /// Dielectric loss factor tan delta of the actuator. The loss adds the current G (V - mean of V) to
+        /// the actuator's current, with the conductance G = w C tan delta. Here w is the angular drive
+        /// frequency, C the capacitance and V the voltage. Measured impedances of piezoelectric actuators
+        /// correspond to a tan delta between 0.13 and 0.16 at large voltages.
         dielectric_loss: f64 = ("", "tan delta", Number(NonNegative), default: 0.0),
-        /// Fraction, between 0 and 1, of the power returned by the actuator that the power supply recovers. The
-        /// fraction affects only the column power_supply_mw. In the circuit of Ozaki and Ohta (2020), the supply power
-        /// fell to 58 %, which is a fraction of 0.42 for a capacitive load.
+        /// Fraction, from 0 to 1, of the returned power that the power supply recovers. The returned power
+        /// flows from the actuator back to the power supply. The fraction affects only the column
+        /// power_supply_mw. In the circuit of Ozaki and Ohta (2020), charge recovery reduced the supply power
+        /// to 58 %. For a capacitive load, this means a fraction of 0.42.
         charge_recovery: f64 = ("", "r", Number(Share), default: 0.0),
     }
 }
@@ -80,8 +83,8 @@ impl ElectricalParameters {
     }
 }
 
-/// Returns the mean power (W) that the supply delivers: the mean positive part of the actuator's power, minus the
-/// recovered share of the returned power.
+/// Returns the mean power (W) that the supply delivers. It is the mean of the positive part of the actuator's
+/// power, minus the recovered part of the returned power.
 ///
 /// `mean` is the mean of the actuator's power, including negative values.
 pub(crate) fn supplied(positive_mean: f64, mean: f64, recovery: f64) -> f64 {

@@ -1,4 +1,4 @@
-//! Rules for integrals over the interval from 0 to 1.
+//! Quadrature rules for integrals over the interval from 0 to 1.
 
 use core::f64::consts::PI;
 use std::cell::RefCell;
@@ -7,24 +7,24 @@ use std::rc::Rc;
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
-/// A node in [0, 1] and its weight.
+/// A node of a quadrature rule in [0, 1], and the weight of the node.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Node {
     /// Position of the node.
     pub x: f64,
-    /// Weight of the function's value at the node. The weights of a rule add up to 1.
+    /// Weight of the function's value at the node. The weights of a quadrature rule add up to 1.
     pub weight: f64,
 }
 
-/// Returns the midpoint rule: the midpoints of `n` equal parts, with equal weights. The rule is exact for linear
-/// functions.
+/// Returns the midpoint rule. Its nodes are the midpoints of `n` equal parts of the interval, and all weights
+/// are equal. The midpoint rule is exact for linear functions.
 pub(crate) fn midpoints(n: usize) -> Rc<[Node]> {
     let weight = 1.0 / n as f64;
     (0..n).map(|i| Node { x: (i as f64 + 0.5) * weight, weight }).collect()
 }
 
-/// Returns the Gauss-Legendre rule of `n` nodes, in ascending order. The rule is exact for polynomials of degree 2n −
-/// 1.
+/// Returns the Gauss-Legendre rule with `n` nodes in ascending order. The rule is exact for polynomials up to
+/// degree 2n − 1.
 ///
 /// ```
 /// let rule = flap_core::quadrature::gauss_legendre(4);
@@ -59,11 +59,12 @@ fn find_gauss_legendre(n: usize) -> Rc<[Node]> {
         .collect()
 }
 
-/// Returns the Gauss rule of `n` nodes, in ascending order, for the beta distribution x^(p−1) (1−x)^(q−1) with p, q > 0.
+/// Returns the Gauss rule with `n` nodes in ascending order, for the beta distribution x^(p−1) (1−x)^(q−1)
+/// with p, q > 0.
 ///
-/// The weights add up to 1. The rule is exact for polynomials of degree 2n − 1 times the distribution. The nodes are
-/// the eigenvalues of the Jacobi matrix, and the weights are the squared first components of its eigenvectors (Golub
-/// and Welsch 1969).
+/// The weights add up to 1. For polynomials up to degree 2n − 1, the rule computes the mean over the beta
+/// distribution exactly. The nodes are the eigenvalues of the Jacobi matrix, and the weights are the squared
+/// first components of its eigenvectors (Golub and Welsch 1969).
 ///
 /// ```
 /// let rule = flap_core::quadrature::gauss_beta(4, 2.0, 1.5);

@@ -6,25 +6,26 @@ use crate::num::Real;
 use crate::parameter::Kind::{Following, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 
-/// Returns the viscous damping γ k/ω equivalent to the loss factor γ of a spring.
+/// Returns the viscous damping γ k/ω that causes the same loss as the loss factor γ of a spring.
 ///
-/// Here k is the `stiffness` of the spring, and ω is the angular frequency `rate` (rad/s). The equivalence is exact for
-/// the first harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish (2021) measured loss factors of insect
-/// thoraxes and robot hinges.
+/// Here k is the `stiffness` of the spring, and ω is the angular frequency `rate` (rad/s). The two losses are
+/// equal for the first harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish (2021) measured loss
+/// factors of insect thoraxes and robot hinges.
 pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) -> f64 {
     loss_factor * stiffness / rate
 }
 
 crate::parameters! {
-    /// Loss factor, stiffening, stop and size of the wing hinge.
+    /// Parameters of the wing hinge: loss factor, cubic stiffness, stop and dimensions.
     pub struct HingeParameters {
-        /// Loss factor of the wing hinge. The loss factor adds a viscous damping: loss factor times stiffness, divided
-        /// by the angular drive frequency.
+        /// Loss factor of the wing hinge. It adds a viscous damping, which is the loss factor times the
+        /// stiffness, divided by the angular drive frequency.
         hinge_loss_factor: f64 = ("", "gamma_h", Number(NonNegative), default: 0.0),
-        /// Cubic stiffness of the wing hinge: the hinge adds a moment of hinge_stiffening times the third power of the pitch,
-        /// against the pitch.
+        /// Cubic stiffness of the wing hinge. It adds a moment against the pitch: hinge_stiffening times the
+        /// third power of the pitch.
         hinge_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0),
-        /// Magnitude of the pitch at which the stop of the hinge begins to act, in both directions.
+        /// Magnitude of the pitch at which the stop of the wing hinge begins to act. The stop acts in both
+        /// directions of the pitch.
         hinge_stop_angle: f64 = ("rad", "", Number(NonNegative), default: FRAC_PI_3),
         /// Stiffness of the stop of the hinge. Beyond hinge_stop_angle, the stop adds hinge_stop_stiffness to the
         /// stiffness of the hinge.
@@ -41,7 +42,7 @@ crate::parameters! {
 pub(crate) const FLEXURE: &[(&str, f64)] = &[("hinge_thickness", 3.0), ("hinge_length", -1.0)];
 
 impl HingeParameters {
-    /// A linear hinge without loss and without dimensions.
+    /// A hinge with a linear spring, without loss and without known dimensions.
     pub(crate) const NONE: HingeParameters = HingeParameters {
         hinge_loss_factor: 0.0,
         hinge_stiffening: 0.0,
@@ -51,13 +52,14 @@ impl HingeParameters {
         hinge_length: None,
     };
 
-    /// Returns the viscous damping that is equivalent to the loss factor of the hinge (N·m·s). `stiffness` is the
-    /// stiffness of the hinge (N·m/rad), and `rate` is the angular frequency (rad/s).
+    /// Returns the viscous damping that causes the same loss as the loss factor of the hinge (N·m·s).
+    /// `stiffness` is the stiffness of the hinge (N·m/rad), and `rate` is the angular frequency (rad/s).
     pub(crate) fn damping(&self, stiffness: f64, rate: f64) -> f64 {
         structural_damping(self.hinge_loss_factor, stiffness, rate)
     }
 
-    /// Returns the strain of the flexure's faces per pitch angle (1/rad): the thickness divided by twice the length.
+    /// Returns the strain at the surface of the hinge's flexure per pitch angle (1/rad): the thickness
+    /// divided by twice the length.
     ///
     /// The flexure is assumed to bend to an arc of a circle. The strain is zero if the dimensions of the flexure are
     /// not set.
@@ -70,7 +72,8 @@ impl HingeParameters {
 }
 
 crate::per_lane! {
-    /// Nonlinear parts of the springs. The papers of the models contain only linear springs.
+    /// Nonlinear parts of the springs of the stroke and of the wing hinge. The papers of the models contain
+    /// only linear springs.
     pub struct Stiffening<R> {
         /// Cubic stiffness of the stroke k₃ (N·m/rad³).
         pub stroke: R,
@@ -102,13 +105,15 @@ impl Stiffening<f64> {
 }
 
 impl<R: Real> Stiffening<R> {
-    /// Returns the nonlinear moment about the stroke axis, against the stroke φ (rad): k₃ φ³ (N·m).
+    /// Returns the nonlinear moment k₃ φ³ of the stroke's spring about the stroke axis (N·m). The moment acts
+    /// against the stroke φ (rad).
     #[inline(always)]
     pub(crate) fn stroke_moment(&self, stroke: R) -> R {
         self.stroke * stroke * (stroke * stroke)
     }
 
-    /// Returns the nonlinear moment about the hinge's axis, against the pitch ψ (rad) (N·m):
+    /// Returns the nonlinear moment of the hinge's spring about the axis of the hinge (N·m). The moment acts
+    /// against the pitch ψ (rad):
     ///
     /// ```text
     /// κ₃ ψ³ + κ_s max(|ψ| − ψ_s, 0) sign ψ

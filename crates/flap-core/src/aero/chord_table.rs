@@ -1,4 +1,4 @@
-//! The chord of a wing as a table.
+//! Table of the chord of a wing at eleven positions along the span.
 //!
 //! Use the table if no polynomial describes the chord of your wing.
 
@@ -7,11 +7,11 @@ use crate::parameter::Invalid;
 use crate::parameter::Kind::{Choice, Number};
 use crate::parameter::Range::NonNegative;
 
-/// Stations of the table: at 0, 10, ... 100 % of the wing's length.
+/// Number of chords in the table: one chord at each tenth of the wing's length, from 0 to 100 %.
 pub const STATIONS: usize = 11;
 
 crate::choice! {
-    /// Source of the chord of the wing.
+    /// Choice between the model's own chord shape and the chord table.
     pub enum Tabulated {
         /// The model computes the chord from its own chord shape.
         Off = "off",
@@ -21,60 +21,62 @@ crate::choice! {
 }
 
 crate::parameters! {
-    /// Chords at stations along the span, interpolated linearly in between.
+    /// Chords of the wing at eleven positions along the span. Between two positions, flap interpolates the
+    /// chord linearly.
     pub struct ChordTable {
-        /// Source of the chord of the wing: the chord shape of the model ("off"), or the table chord_0 to chord_10
-        /// ("on").
+        /// Selects the chord of the wing: "off" uses the chord shape of the model, and "on" uses the
+        /// parameters chord_0 to chord_10.
         chord_table: Tabulated = ("", "", Choice(Tabulated::NAMES), default: 0.0),
-        /// Chord at 0 % of the length of the wing, the root, for chord_table = "on".
+        /// Chord at the root of the wing (0 % of its length), used if chord_table is "on".
         chord_0: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 10 % of the length of the wing, for chord_table = "on".
+        /// Chord at 10 % of the wing's length from the root, used if chord_table is "on".
         chord_1: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 20 % of the length of the wing, for chord_table = "on".
+        /// Chord at 20 % of the wing's length from the root, used if chord_table is "on".
         chord_2: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 30 % of the length of the wing, for chord_table = "on".
+        /// Chord at 30 % of the wing's length from the root, used if chord_table is "on".
         chord_3: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 40 % of the length of the wing, for chord_table = "on".
+        /// Chord at 40 % of the wing's length from the root, used if chord_table is "on".
         chord_4: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 50 % of the length of the wing, for chord_table = "on".
+        /// Chord at 50 % of the wing's length from the root, used if chord_table is "on".
         chord_5: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 60 % of the length of the wing, for chord_table = "on".
+        /// Chord at 60 % of the wing's length from the root, used if chord_table is "on".
         chord_6: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 70 % of the length of the wing, for chord_table = "on".
+        /// Chord at 70 % of the wing's length from the root, used if chord_table is "on".
         chord_7: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 80 % of the length of the wing, for chord_table = "on".
+        /// Chord at 80 % of the wing's length from the root, used if chord_table is "on".
         chord_8: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 90 % of the length of the wing, for chord_table = "on".
+        /// Chord at 90 % of the wing's length from the root, used if chord_table is "on".
         chord_9: f64 = ("m", "", Number(NonNegative), default: 0.0),
-        /// Chord at 100 % of the length of the wing, the tip, for chord_table = "on".
+        /// Chord at the tip of the wing (100 % of its length), used if chord_table is "on".
         chord_10: f64 = ("m", "", Number(NonNegative), default: 0.0),
     }
 }
 
 impl ChordTable {
-    /// Returns a table of chords (m), one per station from root to tip.
+    /// Returns a table of the given chords (m) at 0, 10, ..., 100 % of the wing's length from the root.
     pub fn new(chord_table: Tabulated, chords: [f64; STATIONS]) -> ChordTable {
         let mut values = vec![f64::from(chord_table as u8)];
         values.extend(chords);
         ChordTable::from_values(&values)
     }
 
-    /// Returns a chord table that the model does not use.
+    /// Returns a chord table that is switched off, so that the model uses its own chord shape.
     pub(crate) fn off() -> ChordTable {
         ChordTable::new(Tabulated::Off, [0.0; STATIONS])
     }
 
-    /// Returns the chords at the stations (m).
+    /// Returns the chords (m) at 0, 10, ..., 100 % of the wing's length from the root.
     fn chords(&self) -> Vec<f64> {
         self.to_values().split_off(1)
     }
 
-    /// Returns true if the model reads its chord from the table.
+    /// Returns true if the model computes the chord of the wing from the table.
     pub(crate) fn is_on(&self) -> bool {
         self.chord_table == Tabulated::On
     }
 
-    /// Returns the chord (m) at `x`, from 0 at the wing's root to 1 at its tip; `None` if the table is off.
+    /// Returns the chord (m) at the position `x`, which is 0 at the wing's root and 1 at the tip. The result
+    /// is `None` if the table is switched off.
     pub(crate) fn chord(&self, x: f64) -> Option<f64> {
         if !self.is_on() {
             return None;
@@ -93,10 +95,10 @@ impl ChordTable {
         (ends + chords[1..STATIONS - 1].iter().sum::<f64>()) / (STATIONS - 1) as f64
     }
 
-    /// Checks that the table contains a chord.
+    /// Checks that at least one chord of the table is more than zero, if the table is switched on.
     ///
     /// # Errors
-    /// An error if the table is on and all its chords are zero.
+    /// An error if the table is switched on and all its chords are zero.
     pub(crate) fn check(&self) -> Result<(), Invalid> {
         if self.is_on() && self.mean() <= 0.0 {
             return Err(Invalid::new(
@@ -107,7 +109,8 @@ impl ChordTable {
     }
 }
 
-/// Returns the parameters of the chord table for the outline of a wing, with `chord_table` set to "on".
+/// Returns names and values of the parameters `chord_table` ("on") and `chord_0` to `chord_10` for a wing
+/// with the given outline.
 pub(crate) fn chord_table(outline: &Outline) -> Vec<(&'static str, f64)> {
     let mut parameters = vec![("chord_table", f64::from(Tabulated::On as u8))];
     for (station, parameter) in ChordTable::TABLE[1..].iter().enumerate() {

@@ -7,15 +7,16 @@ use crate::num::Real;
 crate::per_lane! {
     /// A strip of a wing in oblique flow.
     pub struct ObliqueStrip<R> {
-        /// Weight ½ρcΔr (kg/m).
+        /// Factor ½ρcΔr of the forces on the strip, which is called the weight of the strip (kg/m).
         pub weight: R,
         /// Distance r from the stroke axis to the point at which the velocity of the strip is computed (m).
         pub radius: R,
         /// Lever arm of the forces on the strip about the stroke axis (m).
         pub lever: R,
-        /// Distance d behind the pitch axis of the point at which the velocity of the strip is computed (m).
+        /// Distance d from the pitch axis back to the point at which the velocity of the strip is computed
+        /// (m).
         pub behind: R,
-        /// Chord c of the strip, the unit of its centre of pressure (m).
+        /// Chord c of the strip (m). The position of the centre of pressure is measured in chords.
         pub chord: R,
     }
 }
@@ -26,24 +27,25 @@ impl ObliqueStrip<f64> {
         ObliqueStrip { weight: 0.0, radius: 0.0, lever: 0.0, behind: 0.0, chord: 0.0 };
 }
 
-/// Flow past a strip: the velocity of the strip along the normal of the wing, and along the chord towards the leading
-/// edge.
+/// Velocity of a strip relative to still air. One component is along the normal of the wing, and the other
+/// component is along the chord, towards the leading edge.
 ///
 /// ```text
 /// u_N = u cos ψ − w sin ψ     u_C = u sin ψ + w cos ψ
 /// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Flow<R> {
-    /// Velocity u_N along the normal (m/s).
+    /// Component u_N of the strip's velocity along the normal of the wing (m/s).
     pub normal: R,
-    /// Velocity u_C along the chord (m/s).
+    /// Component u_C of the strip's velocity along the chord, towards the leading edge (m/s).
     pub chordwise: R,
     /// Speed of the strip U = √(u_N² + u_C²) (m/s).
     pub speed: R,
 }
 
 impl<R: Real> Flow<R> {
-    /// Returns the flow past a strip, given the sine and the cosine of the pitch.
+    /// Returns the velocity of a strip relative to still air, given the motion of the wing's sections. The
+    /// last argument contains the sine and the cosine of the wing pitch.
     #[inline(always)]
     pub fn past(sections: &Sections<R>, strip: &ObliqueStrip<R>, [sin, cos]: [R; 2]) -> Flow<R> {
         let ObliqueStrip { radius, behind, .. } = *strip;
@@ -60,13 +62,15 @@ impl<R: Real> Flow<R> {
         R::select(flows, one / R::select(flows, square, one), zero)
     }
 
-    /// Returns the attack angle folded into [0, π/2] (rad): B = atan2(|u_N|, |u_C|).
+    /// Returns the acute angle between the chord and the velocity of the strip (rad): B = atan2(|u_N|,
+    /// |u_C|).
     #[inline(always)]
     pub fn folded_attack(&self) -> R {
         self.normal.abs().angle_over(self.chordwise.abs())
     }
 
-    /// Returns the attack angle relative to the direction of motion, in [0, π] (rad): A = atan2(|u_N|, u_C).
+    /// Returns the angle between the velocity of the strip and the direction from the trailing to the leading
+    /// edge (rad). The angle is from 0 to π: A = atan2(|u_N|, u_C).
     #[inline(always)]
     pub fn attack(&self) -> R {
         let folded = self.folded_attack();
@@ -74,8 +78,9 @@ impl<R: Real> Flow<R> {
         R::select(self.chordwise.lt(folded.lit(0.0)), reversed, folded)
     }
 
-    /// Returns the forces along normal and chord, divided by the weight ½ρcΔr of the strip. The coefficients are C_L =
-    /// b_L sin 2ψ and C_D = b₁ + b₂ cos 2ψ of the effective pitch. The `harmonics` change C_D and b_L.
+    /// Returns the forces on the strip along the normal and along the chord, divided by ½ρcΔr (m²/s²). The
+    /// lift coefficient is C_L = b_L sin 2ψ, and the drag coefficient is C_D = b₁ + b₂ cos 2ψ. Here tan ψ is
+    /// u_C/u_N. `harmonics` adds terms to C_D and b_L.
     ///
     /// ```text
     /// C_D = b₁ + b₂ (u_N² − u_C²)/U²     F_N = U u_N (C_D + 2 b_L u_C²/U²)     F_C = U u_C (2 b_L u_N²/U² − C_D)
@@ -95,23 +100,25 @@ impl<R: Real> Flow<R> {
     }
 }
 
-/// Sums of the forces on the strips, against the direction of the normal of the wing, and along the chord.
+/// Sums of the forces on all strips of a wing. F_N acts against the direction of the wing's normal, and F_C
+/// acts along the chord towards the leading edge.
 #[derive(Clone, Copy, Debug)]
 pub struct ObliqueForces<R> {
-    /// Sum of F_N over the strips (N).
+    /// Sum of the normal forces F_N of all strips (N).
     pub normal: R,
-    /// Sum of F_C over the strips (N).
+    /// Sum of the forces F_C along the chord of all strips (N).
     pub chordwise: R,
-    /// Sum of F_N times lever arm (N·m).
+    /// Sum of the normal force F_N times its lever arm about the stroke axis, over all strips (N·m).
     pub normal_moment: R,
-    /// Sum of F_C times lever arm (N·m).
+    /// Sum of the force F_C along the chord times its lever arm about the stroke axis, over all strips (N·m).
     pub chordwise_moment: R,
-    /// Sum of F_N times the distance of the centre of pressure behind the pitch axis (N·m).
+    /// Sum of the normal force F_N times the distance from the pitch axis back to the centre of pressure,
+    /// over all strips (N·m).
     pub pitch_moment: R,
 }
 
 impl<R: Real> ObliqueForces<R> {
-    /// Returns forces of zero, in the number type of `number`.
+    /// Returns sums that are all zero, of the same number type as `number`.
     #[inline(always)]
     pub(crate) fn none(number: R) -> ObliqueForces<R> {
         let zero = number.lit(0.0);
@@ -124,7 +131,8 @@ impl<R: Real> ObliqueForces<R> {
         }
     }
 
-    /// Adds the forces of a strip, in the form that the argument `law` of [`oblique_forces`] returns.
+    /// Adds the forces on one strip to the sums. The argument `law` of [`oblique_forces`] returns these
+    /// forces.
     #[inline(always)]
     pub(crate) fn add(&mut self, strip: &ObliqueStrip<R>, ([normal, chordwise], pressure): ([R; 2], R)) {
         let ObliqueStrip { weight, lever, chord, .. } = *strip;
@@ -136,7 +144,7 @@ impl<R: Real> ObliqueForces<R> {
         self.pitch_moment = self.pitch_moment + chord * pressure * normal;
     }
 
-    /// Returns [lift, drag]: F_N sin ψ + F_C cos ψ and F_N cos ψ − F_C sin ψ (N).
+    /// Returns the lift F_N sin ψ + F_C cos ψ and the drag F_N cos ψ − F_C sin ψ (N).
     #[inline(always)]
     pub fn lift_and_drag(&self, [sin, cos]: [R; 2]) -> [R; 2] {
         [self.normal * sin + self.chordwise * cos, self.normal * cos - self.chordwise * sin]
@@ -152,10 +160,12 @@ impl<R: Real> ObliqueForces<R> {
     }
 }
 
-/// Returns the sums of the forces on the strips of a wing, given the sine and the cosine of the pitch.
+/// Returns the sums of the forces on all strips of a wing. `pitch` contains the sine and the cosine of the
+/// wing pitch.
 ///
-/// For a strip and its flow, `law` returns the forces along normal and chord, divided by the weight of the strip
-/// (m²/s²). `law` also returns the position of the centre of pressure behind the pitch axis (chords).
+/// The function `law` returns the forces on one strip along the normal and along the chord, divided by ½ρcΔr
+/// of the strip (m²/s²). `law` also returns the distance from the pitch axis back to the centre of pressure,
+/// in chords.
 #[inline(always)]
 pub fn oblique_forces<R: Real>(
     strips: impl Iterator<Item = ObliqueStrip<R>>,

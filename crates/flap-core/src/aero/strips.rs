@@ -1,25 +1,25 @@
-//! Strips of a wing, and sums over them.
+//! Strips of a wing, and sums of forces over all strips.
 
 use super::oblique::ObliqueStrip;
 use crate::num::{Lanes, PerLane, Real};
 use crate::parameter::Invalid;
 use crate::quadrature::Node;
 
-/// Position and size of a strip (m).
+/// Position and size of a strip of a wing, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Cut {
-    /// Distance from the stroke axis r.
+    /// Distance r of the strip from the stroke axis.
     pub(crate) radius: f64,
     /// Chord c.
     pub(crate) chord: f64,
-    /// Width along the span Δr.
+    /// Width Δr of the strip along the span.
     pub(crate) width: f64,
 }
 
 /// Cuts a wing of the given `length` (m) into one strip for each node of a quadrature rule.
 ///
-/// The wing begins at the distance `offset` (m) from the stroke axis. `chord` returns the chord (m) at a position
-/// from 0 at the root to 1 at the tip.
+/// The wing begins at the distance `offset` (m) from the stroke axis. The function `chord` returns the chord
+/// (m) at a position from 0 at the root to 1 at the tip.
 pub(crate) fn cut(rule: &[Node], offset: f64, length: f64, chord: impl Fn(f64) -> f64) -> Vec<Cut> {
     let cut = |node: &Node| Cut {
         radius: offset + length * node.x,
@@ -29,7 +29,8 @@ pub(crate) fn cut(rule: &[Node], offset: f64, length: f64, chord: impl Fn(f64) -
     rule.iter().map(cut).collect()
 }
 
-/// Checks that no chord is negative. `parameters` are the names of the chord's parameters, for the error message.
+/// Checks that no chord is negative. The error message contains the names in `parameters`, which are the
+/// names of the parameters that describe the chord.
 pub(crate) fn check_chords(cuts: &[Cut], parameters: &[&str]) -> Result<(), Invalid> {
     let Some(cut) = cuts.iter().find(|cut| cut.chord < 0.0) else { return Ok(()) };
     let (first, last) = (parameters[0], parameters[parameters.len() - 1]);
@@ -39,25 +40,27 @@ pub(crate) fn check_chords(cuts: &[Cut], parameters: &[&str]) -> Result<(), Inva
     )))
 }
 
-/// Returns the sum Σ f(r, c) Δr over the strips.
+/// Returns the sum of f(r, c) Δr over all strips, with the radius r, the chord c and the width Δr of each
+/// strip.
 pub(crate) fn sum(cuts: &[Cut], f: impl Fn(f64, f64) -> f64) -> f64 {
     cuts.iter().map(|cut| f(cut.radius, cut.chord) * cut.width).sum()
 }
 
-/// The strips of a wing, at most `MAX`.
+/// The strips of a wing. The number of strips is at most `MAX`.
 ///
-/// All lanes loop over the same number of strips: the largest number of strips in any lane. In lanes with fewer strips,
-/// the remaining strips have weight zero and do not change the sums.
+/// All lanes loop over the same number of strips: the largest number of strips in any lane. In lanes with
+/// fewer strips, the surplus strips have a weight of zero and do not change the sums.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strips<R, const MAX: usize> {
     count: usize,
-    /// Four numbers for each strip: √a r, √a κc, radius r (m) and chord c (m), with a = ½ρcΔr. √a r and √a κc are
-    /// weighted velocities per stroke rate and per sweep rate.
+    /// Four numbers for each strip: √a r, √a κc, radius r (m) and chord c (m), with a = ½ρcΔr. √a r times the
+    /// stroke rate, plus √a κc times the sweep rate, is √a times the velocity of the strip.
     strips: [[R; 4]; MAX],
 }
 
 impl<const MAX: usize> Strips<f64, MAX> {
-    /// Returns the strips of a wing in air of density `air_density` (kg/m³); at most `MAX` strips.
+    /// Returns the strips of a wing in air of the density `air_density` (kg/m³). Strips after the first `MAX`
+    /// strips are left out.
     ///
     /// The velocity of a strip is computed at a distance of `lever` chords (κ) from the pitch axis.
     pub(crate) fn new(cuts: &[Cut], air_density: f64, lever: f64) -> Strips<f64, MAX> {
@@ -70,19 +73,20 @@ impl<const MAX: usize> Strips<f64, MAX> {
     }
 }
 
-/// Sums over the strips of ½ρ u|u| c Δr, where u is the strip's velocity.
+/// Sums of ½ρ u|u| c Δr over all strips of a wing, where u is the velocity of the strip.
 #[derive(Clone, Copy, Debug)]
 pub struct StripSums<R> {
-    /// Sum without a further factor, Σ ½ρ u|u| c Δr (N).
+    /// Sum of ½ρ u|u| c Δr over all strips (N).
     pub force: R,
-    /// Sum with the radius r as a factor, Σ r ½ρ u|u| c Δr (N·m).
+    /// Sum of r ½ρ u|u| c Δr over all strips, where r is the radius of the strip (N·m).
     pub radius: R,
-    /// Sum with the chord c as a factor, Σ c ½ρ u|u| c Δr (N·m).
+    /// Sum of c ½ρ u|u| c Δr over all strips, where c is the chord of the strip (N·m).
     pub chord: R,
 }
 
 impl<R: Real, const MAX: usize> Strips<R, MAX> {
-    /// Returns the strips for oblique flow. The velocities are computed `behind` chords (κ) behind the pitch axis.
+    /// Returns the strips in the form for oblique flow. The velocity of each strip is computed at a point
+    /// that is `behind` chords (κ) behind the pitch axis.
     #[inline(always)]
     pub(crate) fn oblique(&self, behind: R) -> impl Iterator<Item = ObliqueStrip<R>> + '_ {
         self.strips[..self.count.min(MAX)].iter().map(
@@ -97,8 +101,8 @@ impl<R: Real, const MAX: usize> Strips<R, MAX> {
         )
     }
 
-    /// Returns the sums at a stroke rate and a sweep rate, both in rad/s. The sweep rate is the pitch rate times the
-    /// cosine of the pitch.
+    /// Returns the sums over all strips for the given stroke rate and sweep rate (rad/s). The sweep rate is
+    /// the pitch rate times the cosine of the pitch.
     ///
     /// ```text
     /// u = r · stroke rate + κ c · sweep rate

@@ -1,7 +1,8 @@
 //! Forces along the wing's normal from added mass, rotational circulation and rotational drag.
 //!
-//! The normal is (cos ψ e_t − sin ψ e_z), with the axes of [`crate::body`]. The forces of a section depend only on
-//! powers of chord and radius, so integrals over the wing replace sums over strips.
+//! The normal of the wing is cos ψ e_t − sin ψ e_z, with the axes e_t and e_z of [`crate::body::Shoulder`].
+//! The force on a section of the wing contains only powers of the chord and of the radius. Integrals of these
+//! powers over the wing therefore replace sums over strips.
 
 use core::f64::consts::{FRAC_PI_4, PI};
 
@@ -13,9 +14,11 @@ use crate::num::Real;
 pub struct NormalLoad<R> {
     /// Force F (N).
     pub force: R,
-    /// Moment about the chord's axis ∫ r dF (N·m).
+    /// Moment ∫ r dF of the force about the axis along the chord (N·m), where r is the distance from the
+    /// stroke axis.
     pub chord_moment: R,
-    /// Moment about the span axis (N·m): minus the integral of dF times the distance behind the pitch axis.
+    /// Moment −∫ d dF of the force about the axis along the span (N·m), where d is the distance behind the
+    /// pitch axis.
     pub span_moment: R,
 }
 
@@ -38,19 +41,22 @@ impl<R: Real> NormalLoad<R> {
 pub type ChordIntegral<'a> = dyn Fn(i32, i32) -> f64 + 'a;
 
 crate::per_lane! {
-    /// Added mass of the sections of a wing, each π/4 ρc² Δr at the mid-chord (Sedov 1965).
+    /// Added mass of a wing. A section of the width Δr has the added mass π/4 ρc² Δr at the middle of its
+    /// chord (Sedov 1965).
     pub struct AddedMass<R> {
-        /// f₀ = π/4 ρ ∫ c² dr (kg).
+        /// Total added mass f₀ = π/4 ρ ∫ c² dr (kg).
         pub f0: R,
-        /// f₁ = π/4 ρ ∫ r c² dr (kg·m).
+        /// First moment of the added mass about the stroke axis, f₁ = π/4 ρ ∫ r c² dr (kg·m).
         pub f1: R,
-        /// f₂ = π/4 ρ ∫ d c² dr (kg·m), with the distance d of the mid-chord behind the pitch axis.
+        /// First moment of the added mass about the pitch axis, f₂ = π/4 ρ ∫ d c² dr (kg·m). d is the
+        /// distance from the pitch axis back to the mid-chord.
         pub f2: R,
-        /// a₁₁ = π/4 ρ ∫ r² c² dr (kg·m²).
+        /// Added inertia about the stroke axis, a₁₁ = π/4 ρ ∫ r² c² dr (kg·m²).
         pub a11: R,
-        /// a₁₂ = π/4 ρ ∫ r d c² dr (kg·m²).
+        /// Product of inertia of the added mass, a₁₂ = π/4 ρ ∫ r d c² dr (kg·m²).
         pub a12: R,
-        /// a₂₂ = π/4 ρ ∫ d² c² dr, with or without π/128 ρ ∫ c⁴ dr of the rotation about the mid-chord (kg·m²).
+        /// Added inertia about the pitch axis, a₂₂ = π/4 ρ ∫ d² c² dr (kg·m²). Some models add π/128 ρ ∫ c⁴
+        /// dr for the rotation about the mid-chord.
         pub a22: R,
     }
 }
@@ -59,8 +65,8 @@ impl AddedMass<f64> {
     /// No added mass.
     pub const NONE: AddedMass<f64> = AddedMass { f0: 0.0, f1: 0.0, f2: 0.0, a11: 0.0, a12: 0.0, a22: 0.0 };
 
-    /// Returns the added mass in air of the given `density` (kg/m³), including the rotation about the mid-chord. The
-    /// pitch axis is `axis` chords behind the leading edge.
+    /// Returns the added mass in air of the given `density` (kg/m³). The added inertia about the pitch axis
+    /// includes the rotation about the mid-chord. The pitch axis is `axis` chords behind the leading edge.
     pub fn of(density: f64, axis: f64, integral: &ChordIntegral<'_>) -> AddedMass<f64> {
         let (mass, behind) = (FRAC_PI_4 * density, 0.5 - axis);
         AddedMass {
@@ -75,7 +81,8 @@ impl AddedMass<f64> {
 }
 
 impl<R: Real> AddedMass<R> {
-    /// Returns the load of the added mass, given the normal acceleration r e₁ + e₀ − d e₂ of the sections.
+    /// Returns the force and the moments of the added mass. A section has the normal acceleration r e₁ + e₀ −
+    /// d e₂, with the radius r and the distance d behind the pitch axis.
     ///
     /// ```text
     /// F = −(f₁ e₁ + f₀ e₀ − f₂ e₂)     M_c = −(a₁₁ e₁ + f₁ e₀ − a₁₂ e₂)     M_s = a₁₂ e₁ + f₂ e₀ − a₂₂ e₂
@@ -91,16 +98,18 @@ impl<R: Real> AddedMass<R> {
 }
 
 crate::per_lane! {
-    /// Rotational circulation κ c² ω of the sections of a wing, with κ = π (3/4 − x₀) times a factor (Kramer 1932; Sane and
-    /// Dickinson 2002). The pitch axis is x₀ chords behind the leading edge.
+    /// Rotational circulation κ c² ω of the sections of a wing at the pitch rate ω (Kramer 1932; Sane and
+    /// Dickinson 2002). κ is π (3/4 − x₀) times a factor, and the pitch axis is x₀ chords behind the leading
+    /// edge.
     ///
-    /// The force of the circulation, ρ u_C κ c² ω Δr, acts at a quarter of the chord. u_C is the velocity along the
-    /// chord, as in potential flow. Sane and Dickinson multiply by the speed instead of u_C. At small attack angles,
-    /// the speed equals u_C.
+    /// The force of the circulation, ρ u_C κ c² ω Δr, acts at a quarter of the chord. As in potential flow,
+    /// u_C is the component of the section's velocity along the chord. The formula of Sane and Dickinson
+    /// contains the speed of the section instead of u_C. At small attack angles, the speed and u_C are almost
+    /// equal.
     pub struct Circulation<R> {
-        /// Factors κρ ∫ c² r^m dr of the force, for m from 0 to 2 (kg/m, kg, kg·m).
+        /// Factors of the force: κρ ∫ c² r^m dr for m = 0, 1 and 2 (kg/m, kg, kg·m).
         pub force: [R; 3],
-        /// Factors κρ (1/4 − x₀) ∫ c³ r^m dr of the moment, for m from 0 to 1 (kg, kg·m).
+        /// Factors of the moment about the span axis: κρ (1/4 − x₀) ∫ c³ r^m dr for m = 0 and 1 (kg, kg·m).
         pub moment: [R; 2],
     }
 }
@@ -109,8 +118,8 @@ impl Circulation<f64> {
     /// No rotational circulation.
     pub const NONE: Circulation<f64> = Circulation { force: [0.0; 3], moment: [0.0; 2] };
 
-    /// Returns the circulation times `factor`, in air of the given `density` (kg/m³). The pitch axis is `axis` chords
-    /// behind the leading edge.
+    /// Returns the rotational circulation in air of the given `density` (kg/m³). The theoretical circulation
+    /// is multiplied by `factor`. The pitch axis is `axis` chords behind the leading edge.
     pub fn of(factor: f64, density: f64, axis: f64, integral: &ChordIntegral<'_>) -> Circulation<f64> {
         if factor == 0.0 {
             return Circulation::NONE;
@@ -124,7 +133,8 @@ impl Circulation<f64> {
 }
 
 impl<R: Real> Circulation<R> {
-    /// Returns the load of the circulation at a pitch rate ω relative to still air (rad/s).
+    /// Returns the force and the moments of the rotational circulation, given the pitch rate ω relative to
+    /// still air (rad/s).
     ///
     /// ```text
     /// u_C = r P + Q     P = (φ̇ − Ω_z) sin ψ + Ω_t cos ψ     Q = a sin ψ + V_z cos ψ
@@ -143,22 +153,23 @@ impl<R: Real> Circulation<R> {
 }
 
 crate::per_lane! {
-    /// Normal force that the rotational drag exerts on the sections of a wing, without a moment about the span axis.
+    /// Normal force of the rotational drag on a wing, and its moment about the axis along the chord. The
+    /// moment about the axis along the span is not included.
     pub struct RotationalForce<R> {
-        /// Factor ½Cρ I ∫ c³ dr of the force (kg·m). I is the integral of z|z| over a chord of 1, with the distance z
-        /// behind the pitch axis.
+        /// Factor of the force: ½Cρ I ∫ c³ dr (kg·m), where C is the drag coefficient. The number I is the
+        /// integral of z|z| over a chord of length 1, where z is the distance behind the pitch axis.
         pub force: R,
-        /// Factor ½Cρ I ∫ r c³ dr of the moment about the chord's axis (kg·m²).
+        /// Factor of the moment about the axis along the chord: ½Cρ I ∫ r c³ dr (kg·m²).
         pub moment: R,
     }
 }
 
 impl RotationalForce<f64> {
-    /// No force of the rotational drag.
+    /// No rotational drag.
     pub const NONE: RotationalForce<f64> = RotationalForce { force: 0.0, moment: 0.0 };
 
-    /// Returns the force for a drag coefficient, in air of the given density (kg/m³). The pitch axis is `axis` chords
-    /// behind the leading edge.
+    /// Returns the factors of the rotational drag for a drag `coefficient`, in air of the given `density`
+    /// (kg/m³). The pitch axis is `axis` chords behind the leading edge.
     pub fn of(
         coefficient: f64,
         density: f64,
@@ -175,8 +186,8 @@ impl RotationalForce<f64> {
 }
 
 impl<R: Real> RotationalForce<R> {
-    /// Returns the load of the rotational drag at a pitch rate ω relative to still air (rad/s). The load is
-    /// proportional to ω|ω|.
+    /// Returns the force and the moments of the rotational drag, given the pitch rate ω relative to still air
+    /// (rad/s). The force is proportional to ω|ω|.
     #[inline(always)]
     pub fn load(&self, pitch_rate: R) -> NormalLoad<R> {
         let square = pitch_rate * pitch_rate.abs();

@@ -3,18 +3,20 @@
 use crate::parameter::Invalid;
 use crate::quadrature::gauss_legendre;
 
-/// One station of the outline of a wing; all lengths in metres.
+/// Positions of the leading edge and the trailing edge of a wing at one distance from the root. All lengths
+/// are in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Station {
     /// Distance from the root along the span.
     pub span: f64,
-    /// Distance of the leading edge ahead of the hinge's axis; negative if the leading edge is behind the axis.
+    /// Distance of the leading edge ahead of the hinge's axis. The distance is negative if the leading edge
+    /// is behind the axis.
     pub leading: f64,
     /// Distance of the trailing edge behind the hinge's axis.
     pub trailing: f64,
 }
 
-/// The outline of a wing, with straight edges between stations.
+/// The outline of a wing. Between two stations, the edges are straight lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     stations: Vec<Station>,
@@ -27,7 +29,8 @@ pub struct Material {
     pub membrane: f64,
     /// Mass of the spar per length (kg/m).
     pub spar: f64,
-    /// Mass of the whole wing (kg), if it was weighed. The masses of membrane and spar are scaled to the weighed mass.
+    /// Mass of the whole wing (kg), if the wing was weighed. The computed masses of membrane and spar are
+    /// then scaled so that their sum is the weighed mass.
     pub weighed: Option<f64>,
 }
 
@@ -44,7 +47,8 @@ pub struct Wing {
     pub air_density: f64,
 }
 
-/// Mass and moments of mass of a wing, with the distances r from the stroke axis and z behind the hinge's axis.
+/// Mass and moments of mass of a wing. r is the distance from the stroke axis, and z is the distance behind
+/// the hinge's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Masses {
     /// Mass ∫ dm (kg).
@@ -62,8 +66,11 @@ pub struct Masses {
 }
 
 impl Masses {
-    /// Returns the moments of mass about the centre of mass (R, Z) (kg·m²): [∫ (r − R)² dm, ∫ (r − R)(z − Z) dm, ∫ (z −
-    /// Z)² dm].
+    /// Returns the second moments of mass about the centre of mass, which is at r = R and z = Z (kg·m²):
+    ///
+    /// ```text
+    /// [∫ (r − R)² dm, ∫ (r − R)(z − Z) dm, ∫ (z − Z)² dm]
+    /// ```
     pub(crate) fn about_centre(&self) -> [f64; 3] {
         let Masses { mass, radius, depth, rr, rz, zz } = *self;
         [rr - mass * radius * radius, rz - mass * radius * depth, zz - mass * depth * depth]
@@ -71,10 +78,16 @@ impl Masses {
 }
 
 impl Outline {
-    /// Returns the outline through `stations`, in order of increasing distance from the root.
+    /// Returns the outline through `stations`. The stations must be in the order of increasing distance from
+    /// the root.
     ///
     /// # Errors
-    /// An error if the stations are out of order or enclose no area.
+    /// An error in these cases:
+    ///
+    /// - There are fewer than two stations.
+    /// - The first station is not at the root of the wing.
+    /// - The distances of the stations from the root do not increase.
+    /// - A chord is negative, or the area of the wing is zero.
     pub fn new(stations: Vec<Station>) -> Result<Outline, Invalid> {
         let [first, .., _] = stations[..] else {
             let message = format!("an outline has at least two stations, not {}", stations.len());
@@ -134,14 +147,14 @@ impl Outline {
             .fold(0.0, f64::max)
     }
 
-    /// Returns ∫ f(span, leading, trailing) d span. The result is exact if f is a polynomial of degree 11 or less on
-    /// each straight piece of the outline.
+    /// Returns the integral of f(span, leading, trailing) along the span of the wing. The result is exact if
+    /// f is a polynomial of degree 11 or less on each straight piece of the outline.
     pub(crate) fn integral(&self, f: impl Fn(f64, f64, f64) -> f64) -> f64 {
         self.lengths(|span, leading, trailing, _| f(span, leading, trailing))
     }
 
-    /// Returns ∫ f(span, leading, trailing, edge) d span, where edge is the length of the leading edge per length of
-    /// span.
+    /// Returns the integral of f(span, leading, trailing, edge) along the span of the wing. `edge` is the
+    /// length of the leading edge per length of span.
     fn lengths(&self, f: impl Fn(f64, f64, f64, f64) -> f64) -> f64 {
         let rule = gauss_legendre(6);
         let piece = |ends: &[Station]| {
@@ -164,19 +177,20 @@ impl Wing {
         self.outline.integral(|_, leading, trailing| leading + trailing)
     }
 
-    /// Returns the moment of area ∫ rⁿ c d span (m^(n+2)), with the distance r from the stroke axis.
+    /// Returns the moment of area ∫ rⁿ c dr (m^(n+2)), where r is the distance from the stroke axis and c is
+    /// the chord.
     pub(crate) fn area_moment(&self, power: i32) -> f64 {
         self.outline
             .integral(|span, leading, trailing| (self.offset + span).powi(power) * (leading + trailing))
     }
 
-    /// Returns the moment of area ∫∫ |z|ⁿ dA about the hinge's axis (m^(n+2)).
+    /// Returns the moment of area ∫∫ |z|ⁿ dA (m^(n+2)), where z is the distance from the hinge's axis.
     pub(crate) fn width_moment(&self, power: i32) -> f64 {
         let one_side = |edge: f64| edge.signum() * edge.abs().powi(power + 1) / f64::from(power + 1);
         self.outline.integral(|_, leading, trailing| one_side(leading) + one_side(trailing))
     }
 
-    /// Returns the added inertia about the stroke axis (kg·m²), by strip theory: ∫ π/4 ρ c² r² d span.
+    /// Returns the added inertia about the stroke axis (kg·m²), by strip theory: ∫ π/4 ρ c² r² dr.
     pub(crate) fn added_inertia(&self) -> f64 {
         let strips = self.outline.integral(|span, leading, trailing| {
             let (chord, radius) = (leading + trailing, self.offset + span);
@@ -185,7 +199,8 @@ impl Wing {
         core::f64::consts::FRAC_PI_4 * self.air_density * strips
     }
 
-    /// Returns mass and moments of mass of the wing, if the material is known.
+    /// Returns mass and moments of mass of the wing. The result is `None` if the material of the wing is not
+    /// known.
     pub fn masses(&self) -> Option<Masses> {
         let Material { membrane, spar, weighed } = self.material?;
         // Integrand per span: the membrane between the edges, and the spar on the leading edge.

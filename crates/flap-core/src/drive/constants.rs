@@ -1,14 +1,14 @@
-//! The constants of the drive of a point, and the waveforms.
+//! Constants of a point's drive, and the formulas of the waveforms.
 //!
-//! Sine, square wave and chirp begin a period at zero and rise.
+//! At the beginning of a period, the sine, the square wave and the chirp are zero and rise.
 
 use core::f64::consts::PI;
 
 use super::parameters::{Shape, WaveformParameters};
 use crate::num::Real;
 
-/// A quantity at one instant, with its derivatives: a wave of unit amplitude, a voltage (V), or a prescribed stroke
-/// (rad).
+/// Value of the drive at one instant, with its derivatives. The value is a wave of unit amplitude, a voltage
+/// (V), or a prescribed stroke (rad).
 #[derive(Clone, Copy, Debug)]
 pub struct Wave<R> {
     /// Value.
@@ -20,7 +20,8 @@ pub struct Wave<R> {
 }
 
 impl<R: Real> Wave<R> {
-    /// Returns a quantity whose second derivative is not needed, such as a voltage.
+    /// Returns a wave with the given value and rate. The second derivative is set to zero, because quantities
+    /// such as a voltage do not need it.
     #[inline(always)]
     pub fn with_rate(value: R, rate: R) -> Wave<R> {
         Wave { value, rate, bend: value.lit(0.0) }
@@ -38,22 +39,22 @@ impl<R: Real> Wave<R> {
 }
 
 impl<R> From<[R; 3]> for Wave<R> {
-    /// Returns the quantity with this value, rate and second derivative.
+    /// Returns the wave with the given value, rate and second derivative.
     fn from([value, rate, bend]: [R; 3]) -> Wave<R> {
         Wave { value, rate, bend }
     }
 }
 
 crate::per_lane! {
-    /// Constants of a point's drive.
+    /// Constants of the drive of a design point.
     pub struct DriveConstants<R> {
-        /// Constant part of the voltage (V); zero where the stroke is prescribed.
+        /// Constant part of the voltage (V). It is zero if the stroke is prescribed.
         pub bias: R,
         /// Amplitude of the voltage (V), or of the prescribed stroke (rad).
         pub amplitude: R,
-        /// Angular frequency (rad/s). For a chirp, the angular frequency at the beginning.
+        /// Angular frequency of the drive (rad/s). For a chirp, it is the angular frequency at the beginning.
         pub rate: R,
-        /// Rate of change of the angular frequency (rad/s²); zero except for a chirp.
+        /// Rate of change of the angular frequency (rad/s²). It is zero for all waveforms except a chirp.
         pub growth: R,
         /// Factors of sin 2θ and cos 2θ in the second harmonic.
         pub second: [R; 2],
@@ -69,8 +70,9 @@ crate::per_lane! {
 }
 
 impl DriveConstants<f64> {
-    /// Returns a drive of the given `frequency` (Hz), constant part and amplitude. The units of constant part and
-    /// amplitude are V for a voltage, rad for a prescribed stroke.
+    /// Returns the constants of a drive with the given `frequency` (Hz), waveform, constant part and
+    /// amplitude. The unit of constant part and amplitude is V for a voltage, and rad for a prescribed
+    /// stroke.
     pub fn new(
         frequency: f64,
         waveform: &WaveformParameters,
@@ -98,8 +100,8 @@ impl DriveConstants<f64> {
         constants
     }
 
-    /// Returns the drive with a chirped sine as waveform, which begins at `frequency` (Hz) and changes by `rate`
-    /// (Hz/s).
+    /// Returns the drive with a chirp as its waveform. The frequency of the chirp begins at `frequency` (Hz)
+    /// and changes at the constant `rate` (Hz/s).
     #[must_use]
     pub(crate) fn chirped(&self, frequency: f64, rate: f64) -> DriveConstants<f64> {
         let levels = [self.bias, self.amplitude];
@@ -166,8 +168,8 @@ impl<R: Real> DriveConstants<R> {
         }
     }
 
-    /// Returns the square wave, with edges at the beginning, the middle and the end of the period. Each edge has the
-    /// shape of a sine from −90° to 90°.
+    /// Returns the square wave at time `t`. The edges of the square wave are at the beginning, the middle and
+    /// the end of the period. Each edge has the shape of a sine from −90° to 90°.
     #[inline(always)]
     pub(super) fn square(&self, t: R) -> Wave<R> {
         let zero = t.lit(0.0);

@@ -4,19 +4,19 @@ use crate::parameter::Kind::{Choice, Number};
 use crate::parameter::Range::{Any, NonNegative, Positive};
 
 crate::choice! {
-    /// Periodic shapes of a waveform.
+    /// Periodic shapes that a waveform can have.
     pub enum Shape {
         /// sin θ.
         Sine = "sine",
-        /// sin θ + h₂ sin(2θ + p₂) + h₃ sin(3θ + p₃).
+        /// A sine with a second and a third harmonic: sin θ + h₂ sin(2θ + p₂) + h₃ sin(3θ + p₃).
         Harmonics = "harmonics",
-        /// A square wave between −1 and 1 whose edges are half sine waves.
+        /// A square wave between −1 and 1. Each edge has the shape of a sine from −90° to 90°.
         Square = "square",
     }
 }
 
 crate::choice! {
-    /// Quantity that the drive prescribes.
+    /// Quantity that the drive prescribes: the voltage or the stroke.
     pub enum StrokeMode {
         /// The drive prescribes the voltage: the stroke results from the equations of motion.
         Free = "free",
@@ -71,9 +71,9 @@ impl WaveformParameters {
 crate::parameters! {
     /// Parameters of a prescribed stroke.
     pub struct StrokeParameters {
-        /// Motion of the stroke: driven by the actuator, or prescribed. A prescribed stroke is stroke_amplitude times
-        /// the waveform of the drive, and the force for this motion is not limited. The pitch results from the
-        /// equations of motion in both modes.
+        /// Motion of the stroke: driven by the actuator, or prescribed. A prescribed stroke is
+        /// stroke_amplitude times the waveform of the drive, and the force for this motion is not limited.
+        /// The pitch always results from the equations of motion, whether the stroke is prescribed or not.
         stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),
         /// Amplitude of the prescribed stroke, for stroke_mode = "prescribed".
         stroke_amplitude: f64 = ("rad", "", Number(NonNegative)),

@@ -1,4 +1,4 @@
-//! Waveforms and motions given as samples, interpolated by a cubic spline.
+//! Waveforms and motions that are given as samples. A cubic spline interpolates between the samples.
 
 use core::f64::consts::TAU;
 use std::sync::Arc;
@@ -11,7 +11,8 @@ use crate::parameter::Invalid;
 /// Smallest number of samples that a record may have.
 const FEWEST: usize = 4;
 
-/// Magnitude below which a record has no first harmonic, relative to the range of the record.
+/// Smallest magnitude of a first harmonic, as a fraction of the record's range. If the magnitude is smaller,
+/// the record counts as a record without a first harmonic.
 const NO_HARMONIC: f64 = 1e-9;
 
 /// Continuation of a record after its last sample.
@@ -19,15 +20,16 @@ const NO_HARMONIC: f64 = 1e-9;
 pub enum Repeat {
     /// The record repeats: its last sample is also the first sample of the next period.
     Periodic,
-    /// The record ends.
+    /// The record ends at its last sample.
     Once,
 }
 
-/// A record of samples as a smooth function of the phase, from 0 (first sample) to 1 (last sample).
+/// A record of samples, as a smooth function of the phase. The phase is 0 at the first sample and 1 at the
+/// last sample.
 ///
-/// The function is a cubic spline: value, rate and second derivative are continuous, and the second derivative is
-/// linear between samples. Clones of a record share the samples. Two records are equal only if one is a clone of the
-/// other.
+/// The function is a cubic spline: value, rate and second derivative are continuous, and the second
+/// derivative is linear between samples. Clones of a record share the memory of the samples. The operator
+/// `==` returns true only for a record and its clones, even if two separate records contain equal samples.
 #[derive(Clone, Debug)]
 pub struct Samples(Arc<Record>);
 
@@ -37,13 +39,14 @@ struct Record {
     duration: f64,
     phases: Vec<f64>,
     values: Vec<f64>,
-    /// Mean value of the function over its duration.
+    /// Mean value of the spline, from the first to the last sample.
     mean: f64,
-    /// Phase (rad) of the first harmonic of a periodic function, relative to a cosine; NaN without a first harmonic.
+    /// Phase (rad) of the first harmonic of the spline, relative to a cosine. The phase is NaN if the spline
+    /// has no first harmonic.
     first_phase: f64,
-    /// Smallest and largest value of the function, also between samples.
+    /// Smallest and largest value of the spline, including values between the samples.
     range: [f64; 2],
-    /// Second derivative with respect to phase at each sample.
+    /// Second derivative of the spline with respect to phase, at each sample.
     bends: Vec<f64>,
 }
 
@@ -54,10 +57,10 @@ impl PartialEq for Samples {
 }
 
 impl Samples {
-    /// Returns the record of samples at increasing `times` (s).
+    /// Returns the record of the samples `values` at the `times` (s).
     ///
-    /// If the first and the last value of a periodic record differ by at most a thousandth of its range, the difference
-    /// is removed.
+    /// The last value of a periodic record may differ from the first value by at most a thousandth of the
+    /// record's range. flap then replaces the last value by the first value.
     ///
     /// # Errors
     /// An error in these cases:
@@ -102,7 +105,7 @@ impl Samples {
         self.0.duration
     }
 
-    /// Returns the mean value of the function over its duration.
+    /// Returns the mean value of the spline, from the first to the last sample.
     #[inline(always)]
     pub(super) fn mean(&self) -> f64 {
         self.0.mean
@@ -114,21 +117,22 @@ impl Samples {
         self.0.first_phase
     }
 
-    /// Returns the value of the function at a phase, and its first and second derivative with respect to phase.
+    /// Returns the value of the spline at a phase, and the first and second derivatives with respect to
+    /// phase.
     #[inline(always)]
     pub(super) fn at<R: Real>(&self, phase: R) -> [R; 3] {
         self.0.at(phase)
     }
 
-    /// Returns the value of the function at `time` (s) after the first sample, and its first and second derivative with
-    /// respect to time (1/s, 1/s²).
+    /// Returns the value of the spline at `time` (s) after the first sample, and the first and second
+    /// derivatives with respect to time (1/s, 1/s²).
     pub fn motion(&self, time: f64) -> [f64; 3] {
         let duration = self.0.duration;
         let [value, rate, bend] = self.0.at(time / duration);
         [value, rate / duration, bend / (duration * duration)]
     }
 
-    /// Returns the smallest and the largest value of the function, also between samples.
+    /// Returns the smallest and the largest value of the spline, including values between the samples.
     pub fn range(&self) -> [f64; 2] {
         self.0.range
     }
@@ -140,7 +144,8 @@ impl Samples {
 }
 
 impl Record {
-    /// Returns the value of the spline, and its first and second derivative with respect to phase.
+    /// Returns the value of the spline at a phase, and the first and second derivatives with respect to
+    /// phase.
     ///
     /// The formula contains no fused multiply-add, so the results on all processors are identical.
     #[inline(always)]
@@ -180,7 +185,8 @@ fn mean(phases: &[f64], values: &[f64], bends: &[f64]) -> f64 {
 
 /// Returns the phase (rad) of the first harmonic of a periodic cubic spline s(p), relative to a cosine.
 ///
-/// Integration by parts leaves only the third derivative, which is constant in each piece:
+/// After integration by parts, the integral contains only the third derivative of the spline, which is
+/// constant between two samples:
 ///
 /// ```text
 /// ∫ s e^(−2πip) dp = −(2π)⁻⁴ Σ s‴ (e^(−2πi p_end) − e^(−2πi p_begin))
@@ -250,7 +256,8 @@ fn equations(x: &[f64], y: &[f64]) -> [Vec<f64>; 4] {
 
 /// Returns the second derivatives of a "not-a-knot" spline at the samples.
 ///
-/// The third derivative of a "not-a-knot" spline is continuous at the second sample and at the last but one.
+/// The third derivative of a "not-a-knot" spline is continuous at the second sample and at the second-to-last
+/// sample.
 fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     let [lower, mut middle, upper, right] = equations(x, y);
     let n = middle.len();
@@ -271,8 +278,8 @@ fn bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     bends
 }
 
-/// Returns the second derivatives of a periodic spline at the samples. The first and the last sample are the same
-/// point.
+/// Returns the second derivatives of a periodic spline at the samples. The first and the last sample are the
+/// same point of the period.
 fn periodic_bends(x: &[f64], y: &[f64]) -> Vec<f64> {
     let [lower, middle, upper, right] = equations(x, y);
     let n = middle.len();

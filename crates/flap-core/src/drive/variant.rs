@@ -11,7 +11,7 @@ use crate::parameter::Invalid;
 /// Shape of the drive over time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Waveform {
-    /// A periodic shape.
+    /// A periodic shape, whose numbers are parameters of each point.
     Shape(Shape),
     /// Samples of one period.
     Samples(Samples),
@@ -32,11 +32,11 @@ impl Drive {
     /// A sinusoidal voltage.
     pub const SINE: Drive = Drive { waveform: Waveform::Shape(Shape::Sine), stroke: StrokeMode::Free };
 
-    /// A prescribed stroke.
+    /// A prescribed sinusoidal stroke.
     pub(crate) const PRESCRIBED: Drive = Drive { stroke: StrokeMode::Prescribed, ..Drive::SINE };
 
-    /// Returns the drive of a point with the given shape and stroke mode. If the drive has samples, the samples replace
-    /// the shape.
+    /// Returns the drive of a point with the given shape and stroke mode. If `self` is a drive with samples,
+    /// the result has these samples instead of the shape.
     #[must_use]
     pub fn of_point(&self, shape: Shape, stroke: StrokeMode) -> Drive {
         let waveform = match &self.waveform {
@@ -46,7 +46,7 @@ impl Drive {
         Drive { waveform, stroke }
     }
 
-    /// Returns the drive with another waveform.
+    /// Returns a copy of the drive with the given `waveform`.
     #[must_use]
     pub(crate) fn with_waveform(&self, waveform: Waveform) -> Drive {
         Drive { waveform, stroke: self.stroke }
@@ -61,8 +61,8 @@ impl Drive {
     /// Checks that the edges of a square wave fit into the period, and that a prescribed stroke is not a square wave.
     ///
     /// # Errors
-    /// An error if the waveform is a square wave, and its rise time exceeds 0.5 of the period or the drive prescribes
-    /// the stroke.
+    /// An error if a square wave has a rise time of more than 0.5 of the period. A square wave is also an
+    /// error if the drive prescribes the stroke.
     pub fn check(&self, waveform: &WaveformParameters) -> Result<(), Invalid> {
         if self.waveform != Waveform::Shape(Shape::Square) {
             return Ok(());
@@ -101,10 +101,11 @@ impl Drive {
         self.wave(c, t).scaled(c.bias, c.amplitude)
     }
 
-    /// Returns the next time after `t` (s) at which a derivative of the waveform jumps; infinite if no derivative
-    /// jumps.
+    /// Returns the next time after `t` (s) at which a derivative of the waveform jumps. The result is
+    /// infinite if no derivative jumps.
     ///
-    /// For samples the result is infinite, because the second derivative of their spline is continuous.
+    /// For a waveform from samples, the result is infinite, because the second derivative of the spline is
+    /// continuous.
     #[inline(always)]
     pub fn next_break<R: Real>(&self, c: &DriveConstants<R>, t: R) -> R {
         match &self.waveform {
@@ -156,7 +157,8 @@ impl Drive {
         }
     }
 
-    /// Returns the smallest and the largest voltage (V) over a period; NaN if the stroke is prescribed.
+    /// Returns the smallest and the largest voltage (V) over a period. Both numbers are NaN if the stroke is
+    /// prescribed.
     pub(crate) fn voltage_range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
         if self.prescribes_stroke() {
             return [f64::NAN; 2];
@@ -164,7 +166,8 @@ impl Drive {
         self.range(c).map(|wave| c.bias + c.amplitude * wave)
     }
 
-    /// Returns the largest magnitude of the voltage (V) over a period; NaN if the stroke is prescribed.
+    /// Returns the largest magnitude of the voltage (V) over a period. The result is NaN if the stroke is
+    /// prescribed.
     pub(crate) fn largest_voltage(&self, c: &DriveConstants<f64>) -> f64 {
         let [low, high] = self.voltage_range(c);
         high.max(-low)

@@ -1,9 +1,11 @@
 //! Measures of signals over one drive period: means, extrema, first harmonics.
 //!
-//! Means and harmonics are quadratures that advance with the stages of each step. The quadratures have the order of the
-//! integration, and their errors do not affect the step size. Extrema are computed from a polynomial through five
-//! values of the signal in each step. The positive part of a signal that changes sign comes from two parabolas, each
-//! through three of the five values. For each signal, flap computes only the quantities that its measures need.
+//! flap computes means and harmonics as integrals over time, from the values at the stages of each step.
+//! These integrals have the same order as the integration method, and their errors do not affect the step
+//! size. Extrema are computed from a polynomial through five values of the signal in each step. If a signal
+//! changes its sign within a step, flap computes the mean of its positive part from two parabolas. Each
+//! parabola passes through three of the five values. For each signal, flap computes only the quantities that
+//! the measures of this signal need.
 
 use super::step_polynomial::{Extremum, StepPolynomial};
 use crate::model::{Each, Instant, Model, SecondHalf, SignalCycle, SignalSet, SignalsOf, Statistics, Totals};
@@ -13,7 +15,8 @@ use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 use crate::ode::{input, slope};
 
-/// Replaces the sums in `total` that `statistics` selects, in the lanes in which the step was `accepted`.
+/// Copies the sums that `statistics` selects from `sum` to `total`, in the lanes in which the step was
+/// `accepted`.
 #[inline(always)]
 fn replace<R: Lanes>(total: &mut Totals<R>, statistics: Statistics, accepted: R::Mask, sum: &Totals<R>) {
     total.integral = R::select(accepted, sum.integral, total.integral);
@@ -33,15 +36,15 @@ fn replace<R: Lanes>(total: &mut Totals<R>, statistics: Statistics, accepted: R:
     }
 }
 
-/// Sums over the signals `S`, and the time integrals of the load at the wing's shoulder.
+/// Sums of each signal of the set `S` over time, and the time integrals of the load at the wing's shoulder.
 ///
-/// For the load see [`Load::at_shoulder`](crate::model::Load::at_shoulder).
+/// [`Load::at_shoulder`](crate::model::Load::at_shoulder) describes the components of the load.
 pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
 
 /// Returns the sums over a whole period, given the sums over the first half of the period.
 ///
-/// `second_half` computes the signals' sums over the second half. In the second half, stroke, force and moment are the
-/// mirror images of their values in the first half.
+/// The function `second_half` computes the sums of the signals over the second half. In the second half, the
+/// stroke, the force and the moment are mirror images of the first half.
 pub(crate) fn over_both_halves<S: SignalSet>(
     (Each(first), load): &Sums<S, f64>,
     second_half: SecondHalf<S>,
@@ -51,39 +54,40 @@ pub(crate) fn over_both_halves<S: SignalSet>(
     (Each(totals), [0.0, along_span, lift, about_x, 0.0, 0.0])
 }
 
-/// Sums over the signals of the model `M` on one lane.
+/// Sums of the signals of the model `M` over time, in one lane.
 pub(crate) type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
 
 /// Observer that sums up the signals of a model during an integration.
 #[derive(Clone, Copy, Debug)]
 pub struct SignalObserver<'a, M> {
     model: &'a M,
-    /// True to compute extrema and positive parts, which is most of the work. If false, extrema and positive parts are
-    /// undefined.
+    /// True if the observer computes extrema and positive parts, which is most of the work. If `extrema` is
+    /// false, the extrema and the positive parts are undefined.
     extrema: bool,
-    /// True to integrate the load at the shoulder too. If false, the integral of the load is zero.
+    /// True if the observer also integrates the load at the shoulder. If `loads` is false, the integral of
+    /// the load is zero.
     loads: bool,
 }
 
 impl<'a, M> SignalObserver<'a, M> {
-    /// Returns an observer that computes all sums.
+    /// Returns an observer that computes all sums of the signals, but not the integral of the load.
     pub fn all(model: &'a M) -> Self {
         SignalObserver { model, extrema: true, loads: false }
     }
 
-    /// Returns an observer that computes means and first harmonics only.
+    /// Returns an observer that computes means and first harmonics, but no extrema and no positive parts.
     pub(crate) fn means(model: &'a M) -> Self {
         SignalObserver { model, extrema: false, loads: false }
     }
 
-    /// Returns the observer with the integration of the load switched on or off.
+    /// Returns a copy of the observer. The copy integrates the load if `loads` is true.
     #[must_use]
     pub(crate) fn with_loads(self, loads: bool) -> Self {
         SignalObserver { loads, ..self }
     }
 
-    /// Adds a step as [`Observer::add`] does. Returns the ranges of the signals within the step, if the observer
-    /// computes extrema.
+    /// Adds a step to the sums, as [`Observer::add`] does. If the observer computes extrema, the result
+    /// contains the extrema of each signal within the step.
     #[inline(always)]
     pub(super) fn add_step<R: Lanes, const N: usize>(
         &self,
@@ -224,7 +228,7 @@ impl<M: Model<N>, const N: usize> Observer<M, N> for SignalObserver<'_, M> {
     }
 }
 
-/// Returns the time integral of the load over a step. The code is compiled out of line for the reason given at
+/// Returns the time integral of the load over a step. The code is not inlined, for the reason given at
 /// [`slope`].
 #[inline(always)]
 fn impulse<M: Model<N>, R: Lanes, const N: usize>(
@@ -238,8 +242,8 @@ fn impulse<M: Model<N>, R: Lanes, const N: usize>(
     )
 }
 
-/// Smallest and largest value of a signal within a step, their positions as fractions of the step, and the mean of
-/// its positive part.
+/// Extrema of a signal within a step, their positions as fractions of the step, and the mean of the signal's
+/// positive part.
 #[derive(Clone, Copy)]
 pub(super) struct Within<R> {
     pub(super) min: Extremum<R>,
@@ -247,9 +251,11 @@ pub(super) struct Within<R> {
     positive_mean: R,
 }
 
-/// Returns ranges and positive parts of the signals within a step, given the signals at the beginning of the step.
+/// Returns extrema and positive parts of the signals within a step, given the signals at the beginning of the
+/// step.
 ///
-/// The extrema are computed separately in each part of the step, see [`Model::parts`].
+/// A model can divide the step into several parts (see [`Model::parts`]). flap computes the extrema
+/// separately in each part.
 #[inline(always)]
 fn within<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
@@ -298,7 +304,7 @@ fn within<M: Model<N>, R: Lanes, const N: usize>(
     all
 }
 
-/// Returns the signals at the fraction `theta` of a step.
+/// Returns the signals within a step, at the fraction `theta` of the step size.
 #[inline(always)]
 fn between<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
@@ -314,7 +320,7 @@ fn between<M: Model<N>, R: Lanes, const N: usize>(
     signals(model, c, Instant { input: &u, side, y: &y, dy: &dy })
 }
 
-/// Returns the signals at an instant. The code is compiled out of line for the reason given at [`slope`].
+/// Returns the signals at an instant. The code is not inlined, for the reason given at [`slope`].
 #[inline(always)]
 fn signals<M: Model<N>, R: Lanes, const N: usize>(
     model: &M,
@@ -333,7 +339,8 @@ fn signals<M: Model<N>, R: Lanes, const N: usize>(
     )
 }
 
-/// Returns the measures of the signals `S` over a cycle of `period` seconds, given the sums over the signals.
+/// Returns means, extrema and harmonics of the signals `S` over a cycle of `period` seconds, given the sums
+/// of the signals over this cycle.
 pub fn finish<S: SignalSet>((Each(totals), _): &Sums<S, f64>, period: f64) -> S::Of<SignalCycle> {
     S::map(totals, |statistics, total: Totals<f64>| {
         // A signal that is not a number has no extrema and no positive part: `max` alone would skip NaN.

@@ -1,10 +1,10 @@
-//! Measurements of a motion, for any model.
+//! Computation of measures from a motion, for any model.
 //!
-//! - [`cycle`]: signals over one drive period: means, extrema, first harmonics
-//! - [`quarters`]: extrema in each quarter of a drive period
-//! - `size`: the largest magnitude of each state
+//! - [`cycle`]: means, extrema and first harmonics of the signals over one drive period
+//! - [`quarters`]: extrema of the signals in each quarter of a drive period
+//! - `size`: the largest magnitude of each component of the state
 //! - [`multipliers`]: the monodromy matrix of an orbit and its Floquet multipliers
-//! - [`strobe`]: repetition of the state from period to period
+//! - [`strobe`]: test for a periodic motion, from the states at the ends of the drive periods
 
 pub mod cycle;
 pub mod multipliers;

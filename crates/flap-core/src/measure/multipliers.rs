@@ -10,7 +10,8 @@ const LONGEST: usize = 200;
 /// squaring, the test computes the eigenvalues.
 const STABILITY_SQUARINGS: u32 = 8;
 
-/// Number of squarings of a matrix that gives the spectral radius to rounding errors.
+/// Number of times that a matrix must be squared to compute its spectral radius. The error is then of the
+/// order of rounding errors.
 const SQUARINGS: u32 = 54;
 
 /// A matrix of N rows and columns, in row-major order.
@@ -18,8 +19,9 @@ pub type Matrix<const N: usize> = [[f64; N]; N];
 
 /// Returns the monodromy matrix, in units of the typical sizes `scale` of the states.
 ///
-/// `responses` are the changes of the final state after a period, if the components of the initial state change by
-/// `scale`. Column j is the response to a change of state component j by its typical size.
+/// `responses[j]` is the change of the state after a period, if component j of the initial state changes by
+/// its typical size `scale[j]`. This change, in units of the typical sizes, is column j of the monodromy
+/// matrix.
 pub(crate) fn monodromy<const N: usize>(responses: &[[f64; N]], scale: &[f64; N]) -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| responses[j][i] / scale[i]))
 }
@@ -34,8 +36,8 @@ pub(crate) fn product<const N: usize>(second: &Matrix<N>, first: &Matrix<N>) -> 
     core::array::from_fn(|i| core::array::from_fn(|j| (0..N).map(|k| second[i][k] * first[k][j]).sum()))
 }
 
-/// Returns true if every eigenvalue is less than 1 in magnitude. If all eigenvalues are less than 1 in magnitude, the
-/// powers of the matrix converge to zero.
+/// Returns true if every eigenvalue of the matrix is less than 1 in magnitude. If all eigenvalues are less
+/// than 1 in magnitude, the powers of the matrix converge to zero.
 pub(crate) fn is_stable<const N: usize>(m: &Matrix<N>) -> bool {
     let mut power = *m;
     for _ in 0..STABILITY_SQUARINGS {
@@ -48,7 +50,8 @@ pub(crate) fn is_stable<const N: usize>(m: &Matrix<N>) -> bool {
     spectral_radius(m) < 1.0
 }
 
-/// Returns the largest modulus of the eigenvalues: infinite if an entry is infinite, NaN if an entry is NaN.
+/// Returns the largest magnitude of the eigenvalues. The result is NaN if an entry of the matrix is NaN, and
+/// infinite if an entry is infinite.
 pub fn spectral_radius<const N: usize>(m: &Matrix<N>) -> f64 {
     if m.iter().flatten().any(|x| x.is_nan()) {
         return f64::NAN;
@@ -67,8 +70,8 @@ pub fn spectral_radius<const N: usize>(m: &Matrix<N>) -> f64 {
 
 /// Returns the [`spectral_radius`] of a finite matrix by Gelfand's formula, with repeated squaring.
 ///
-/// The spectral radius is the limit of the n-th root of the norm of the n-th power. The function is used if the
-/// iteration for the eigenvalues does not converge.
+/// The spectral radius is the limit of the n-th root of the norm of the matrix's n-th power. flap uses this
+/// function if the iteration for the eigenvalues does not converge.
 pub fn spectral_radius_by_powers<const N: usize>(m: &Matrix<N>) -> f64 {
     let mut power = *m;
     let mut logarithm = 0.0;

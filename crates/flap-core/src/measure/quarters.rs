@@ -1,7 +1,8 @@
 //! Extrema of the signals in each quarter of a drive period, together with the sums over the whole period.
 //!
-//! Signals of a symmetric motion reach equal extrema in both half strokes. A change that breaks the symmetry raises one
-//! extremum more than the other, so the larger of both extrema has a kink. The two extrema lie in opposite quarters.
+//! Signals of a symmetric motion reach equal extrema in both half strokes. A change that breaks the symmetry
+//! raises one of the two extrema more than the other. As a function of this change, the larger extremum
+//! therefore has a kink. The two extrema lie in opposite quarters of the drive period.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -12,15 +13,17 @@ use crate::num::Lanes;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
 
-/// Phase at which the first quarter begins (rad).
+/// Phase at which the first quarter of the drive period begins (rad).
 ///
-/// Extrema are unlikely at this phase, so two extrema half a period apart lie in opposite quarters.
+/// Extrema of a signal are unlikely at this phase. Two extrema with a distance of half a period therefore lie
+/// in opposite quarters.
 const BEGIN: f64 = -0.37;
 
-/// Smallest and largest value of a signal in a quarter.
+/// Smallest and largest value of a signal in a quarter of the drive period.
 type Range<R> = [R; 2];
 
-/// Sums over the signals `S`, and the range of each signal in the four quarters of the period.
+/// Sums of the signals `S` over time, and the extrema of each signal in the four quarters of the drive
+/// period.
 pub type InQuarters<S, R> = (Sums<S, R>, Each<S, [Range<R>; 4]>);
 
 /// Observer that sums up the signals of a model and computes the extrema of the signals in each quarter.
@@ -73,18 +76,18 @@ impl<M: Model<N>, const N: usize> Observer<M, N> for Quarters<'_, M> {
 /// Corrections that make two nearly equal extrema of a signal exactly equal.
 #[derive(Clone, Copy)]
 struct Shifts {
-    /// Index of the quarter opposite to the quarter of the largest value, and the difference of the maxima of both
-    /// quarters.
+    /// Index of the quarter opposite to the quarter with the largest value, and the difference between the
+    /// maxima of these two quarters.
     max: Option<(usize, f64)>,
-    /// Index of the quarter opposite to the quarter of the smallest value, and the difference of the minima of both
-    /// quarters.
+    /// Index of the quarter opposite to the quarter with the smallest value, and the difference between the
+    /// minima of these two quarters.
     min: Option<(usize, f64)>,
-    /// Difference between the magnitudes of the largest and the smallest value.
+    /// Difference between the magnitudes of the largest and the smallest value of the signal.
     gap: Option<f64>,
 }
 
 impl Shifts {
-    /// Returns the corrections for extrema that differ by less than the relative `error`.
+    /// Returns the corrections for extrema whose relative difference is less than `error`.
     fn of(total: &Totals<f64>, ranges: &[Range<f64>; 4], error: f64) -> Shifts {
         let gap = total.max + total.min;
         Shifts {
@@ -107,11 +110,12 @@ impl Shifts {
     }
 }
 
-/// Returns the sums of `runs`, in which nearly equal extrema are made equal; `None` if no extrema are nearly equal.
+/// Returns the sums of `runs`, after making nearly equal extrema exactly equal. The result is `None` if no
+/// extrema are nearly equal.
 ///
-/// The first run is a motion, and the other runs are slightly changed motions. Extrema that differ by less than the
-/// relative `error` are made equal in the first run. The same corrections are then added to the extrema of the other
-/// runs.
+/// The first run is a motion without changes, and all later runs are the same motion with small changes. In
+/// the first run, extrema whose relative difference is less than `error` are made equal. The same corrections
+/// are then added to the extrema of all later runs.
 pub(crate) fn with_equal_extrema<S: SignalSet>(
     runs: &[InQuarters<S, f64>],
     error: f64,
@@ -129,8 +133,8 @@ pub(crate) fn with_equal_extrema<S: SignalSet>(
     Some(equal.collect())
 }
 
-/// Returns the quarter opposite to the quarter of the largest value, and the difference of the maxima of both quarters.
-/// The result is `None` if the difference is not below the relative `error`.
+/// Returns the quarter opposite to the quarter with the largest value, and the difference between the maxima
+/// of these two quarters. The result is `None` if the relative difference is not less than `error`.
 fn other_half(largest: [f64; 4], error: f64) -> Option<(usize, f64)> {
     let quarter = (0..4).max_by(|&one, &other| largest[one].total_cmp(&largest[other]))?;
     let opposite = (quarter + 2) % 4;

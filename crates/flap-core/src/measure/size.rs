@@ -1,11 +1,11 @@
-//! Largest magnitude that each state reaches in a motion.
+//! Largest magnitude that each component of the state reaches in a motion.
 
 use crate::num::Lanes;
 use crate::ode::Ode;
 use crate::ode::ensemble::Observer;
 use crate::ode::step::Attempt;
 
-/// Observer of the largest magnitude of each state at the ends of the steps.
+/// Observer that records the largest magnitude of each component of the state at the ends of the steps.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Size;
 

@@ -1,11 +1,13 @@
-//! Interpolation of a signal within a step, from five values.
+//! Interpolation of a signal within an integration step, from five values of the signal.
 
 use crate::num::Real;
 
-/// A signal within a step or a part of a step: five equidistant values and the quartic polynomial through these values.
+/// A signal within a step or within a part of a step. The fields are five equidistant values, and the quartic
+/// polynomial through these values.
 pub(super) struct StepPolynomial<R> {
     values: [R; 5],
-    /// Coefficients a to d of middle + a x + b x² + c x³ + d x⁴, with x from −2 to 2.
+    /// Coefficients a to d of the polynomial m + a x + b x² + c x³ + d x⁴. m is the middle value of the
+    /// signal, and x is from −2 to 2.
     polynomial: [R; 4],
 }
 
@@ -32,11 +34,11 @@ impl<R: Real> StepPolynomial<R> {
         x.mul_add(x.mul_add(x.mul_add(x.mul_add(d, c), b), a), self.values[2])
     }
 
-    /// Returns the smallest and the largest value of the polynomial. Candidates are the five points and two stationary
-    /// points.
+    /// Returns the smallest and the largest value of the polynomial. Candidates for these values are the five
+    /// given points and two stationary points.
     ///
-    /// The stationary points are the vertices of two parabolas, one in each half of the step. The error of an extremum
-    /// is quadratic in the error of its position.
+    /// The stationary points are the vertices of two parabolas, one in each half of the step. The error of
+    /// the value of an extremum is proportional to the square of the error of its position.
     #[inline(always)]
     pub(super) fn extrema(&self) -> [Extremum<R>; 2] {
         let [first, second] = self.halves();
@@ -73,7 +75,8 @@ impl<R: Real> StepPolynomial<R> {
     }
 }
 
-/// An extremum of a signal: its value and its position, as x of the polynomial or as a fraction of the step.
+/// An extremum of a signal: its value and its position. The position is a value of the polynomial's variable
+/// x, or a fraction of the step.
 #[derive(Clone, Copy)]
 pub(super) struct Extremum<R> {
     pub(super) value: R,
@@ -81,21 +84,23 @@ pub(super) struct Extremum<R> {
 }
 
 impl<R: Real> Extremum<R> {
-    /// Returns the extremum with its position as a fraction of the step. The polynomial covers the part `share` of the
-    /// step, with its centre at `middle`.
+    /// Returns the same extremum, with its position as a fraction of the step. The polynomial covers the
+    /// fraction `share` of the step, and the centre of the polynomial is at the fraction `middle`.
     #[inline(always)]
     pub(super) fn within(self, middle: f64, share: f64) -> Extremum<R> {
         Extremum { place: self.place * (0.25 * share) + middle, ..self }
     }
 
-    /// Returns the extremum with the smaller value; `other` if both are equal or one is NaN.
+    /// Returns the extremum with the smaller value. The result is `other` if the two values are equal or if
+    /// one value is NaN.
     #[inline(always)]
     pub(super) fn or_smaller(self, other: Extremum<R>) -> Extremum<R> {
         let place = R::select(self.value.lt(other.value), self.place, other.place);
         Extremum { value: self.value.min(other.value), place }
     }
 
-    /// Returns the extremum with the larger value; `other` if both are equal or one is NaN.
+    /// Returns the extremum with the larger value. The result is `other` if the two values are equal or if
+    /// one value is NaN.
     #[inline(always)]
     pub(super) fn or_larger(self, other: Extremum<R>) -> Extremum<R> {
         let place = R::select(other.value.lt(self.value), self.place, other.place);
@@ -106,7 +111,7 @@ impl<R: Real> Extremum<R> {
 /// A parabola through three values of a signal: middle + slope x + ½ curvature x², with x from −1 to 1.
 #[derive(Clone, Copy)]
 struct Parabola<R> {
-    /// Position of the parabola's middle, as x of the polynomial (from −2 to 2).
+    /// Value of the polynomial's variable x (from −2 to 2) at the middle of the parabola.
     centre: f64,
     middle: R,
     slope: R,
@@ -119,8 +124,8 @@ impl<R: Real> Parabola<R> {
         Parabola { centre, middle, slope: (end - begin) * 0.5, curvature: begin + end - middle * 2.0 }
     }
 
-    /// Returns the position of the vertex, as x of the polynomial. If the vertex lies outside the parabola's interval,
-    /// the result is the middle of the interval.
+    /// Returns the position of the parabola's vertex, as a value of the polynomial's variable x. If the
+    /// vertex lies outside the parabola's interval, the result is the middle of the interval.
     #[inline(always)]
     fn vertex(&self) -> R {
         let inside = self.slope.abs().lt(self.curvature.abs());

@@ -7,10 +7,11 @@ const LONGEST_PERIOD: u32 = 8;
 
 const LONGEST: usize = LONGEST_PERIOD as usize;
 
-/// Smallest distance between the points of a subharmonic orbit, in units of the states' typical sizes.
+/// Smallest distance between two consecutive states of a subharmonic orbit at the ends of drive periods, in
+/// units of the states' typical sizes.
 ///
-/// The limit is needed because a motion that slowly approaches a period-1 orbit also returns close to its own earlier
-/// points.
+/// A motion that slowly approaches an orbit of one period also returns close to its own earlier states.
+/// Without this limit, the motion would count as subharmonic.
 const SEPARATE: f64 = 1e-2;
 
 /// The states at the ends of the last drive periods.
@@ -18,9 +19,10 @@ const SEPARATE: f64 = 1e-2;
 pub struct Strobe<const N: usize> {
     scale: [f64; N],
     tolerance: f64,
-    /// States at the ends of periods, the latest first.
+    /// States at the ends of drive periods, in the order from the latest to the earliest state.
     states: [[f64; N]; LONGEST + 1],
-    /// Numbers of consecutive ends of periods at which the state equalled the state 1, 2, … periods earlier.
+    /// Entry p − 1 is the number of consecutive period ends at which the state was equal to the state p
+    /// periods earlier.
     repeats: [u32; LONGEST],
     cycles: u32,
 }
@@ -28,17 +30,17 @@ pub struct Strobe<const N: usize> {
 impl<const N: usize> Strobe<N> {
     /// Returns a strobe (a record of states at the ends of periods) that contains only the initial state.
     ///
-    /// The unit of the change of a state component is its typical size in `scale`. In a motion smaller than `scale`,
-    /// changes are relative to the size of the motion. Otherwise a motion with a very small amplitude would always
-    /// count as settled. A change of up to `tolerance` counts as zero.
+    /// The unit of the change of a state component is its typical size in `scale`. In a motion smaller than
+    /// `scale`, changes are relative to the size of the motion. Without this rule, a motion with a very small
+    /// amplitude would always count as settled. A change of the state of up to `tolerance` counts as zero.
     pub fn new(initial: &[f64; N], scale: &[f64; N], tolerance: f64) -> Strobe<N> {
         Strobe { scale: *scale, tolerance, states: [*initial; LONGEST + 1], repeats: [0; LONGEST], cycles: 0 }
     }
 
     /// Adds the state at the end of a period. Returns the length of the orbit in periods, if the motion has settled.
     ///
-    /// An orbit of p periods has settled if p + 1 consecutive states at period ends equal the states p periods earlier.
-    /// For p > 1, the points of the orbit must also be separate.
+    /// An orbit of p periods has settled if p + 1 consecutive states at period ends equal the states p
+    /// periods earlier. For p > 1, consecutive states at period ends must also have a minimum distance.
     pub fn period_end(&mut self, y: &[f64; N]) -> Option<u32> {
         self.states.rotate_right(1);
         self.states[0] = *y;
@@ -57,7 +59,8 @@ impl<const N: usize> Strobe<N> {
         settled
     }
 
-    /// Returns the largest change of a component over the last `periods` periods, in the units of [`Strobe::new`].
+    /// Returns the largest change of a state component over the last `periods` periods, in the units that
+    /// [`Strobe::new`] describes.
     ///
     /// The result is NaN if fewer than `periods` periods have passed.
     pub fn change(&self, periods: u32) -> f64 {
@@ -72,12 +75,12 @@ impl<const N: usize> Strobe<N> {
         &self.states[0]
     }
 
-    /// Returns the state one period before the latest.
+    /// Returns the state one period before the latest state.
     pub(crate) fn before(&self) -> &[f64; N] {
         &self.states[1]
     }
 
-    /// Returns the number of periods that were added to the strobe.
+    /// Returns the number of period ends that were added to the strobe.
     pub fn cycles(&self) -> u32 {
         self.cycles
     }
@@ -89,10 +92,11 @@ pub(crate) fn distance<const N: usize>(one: &[f64; N], other: &[f64; N], scale: 
     (0..N).fold(0.0, |largest, i| largest.max((one[i] - other[i]).abs() / scale[i]))
 }
 
-/// Returns the change of the state over a period from `y` to `end`: the largest component, in units of the states'
-/// typical sizes.
+/// Returns the change of the state over a period that begins at the state `y` and ends at the state `end`.
+/// The change is the largest component of the difference, in units of the states' typical sizes.
 ///
-/// In a motion smaller than these sizes, the change is relative to the motion's own size.
+/// If a motion is smaller than the typical sizes of the states, the change is relative to the size of the
+/// motion.
 pub(crate) fn residual<const N: usize>(y: &[f64; N], end: &[f64; N], scale: &[f64; N]) -> f64 {
     let change = distance(y, end, scale);
     let size = (0..N).fold(0.0_f64, |size, i| size.max(end[i].abs().max(y[i].abs()) / scale[i]));

@@ -1,4 +1,4 @@
-//! One AVX-512 register of `f64`.
+//! A number type that is one AVX-512 register, with eight lanes of `f64`.
 //!
 //! The crate `fearless_simd` supports AVX-512 only on processors since Ice Lake and Zen 4. This module needs only the
 //! instructions of the first server processors with AVX-512 (Skylake-SP, 2017), which are common in clusters.
@@ -22,12 +22,12 @@ use super::macros::{constants_on_the_right, functions_of_lanes, operator};
 use super::pair::Pair;
 use super::real::Real;
 
-/// Proof that the processor has AVX-512 F, DQ, BW, VL and CD, and FMA.
+/// A value that exists only if the processor has the instructions AVX-512 F, DQ, BW, VL and CD, FMA and BMI2.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Avx512(());
 
 impl Avx512 {
-    /// Returns the proof, if the processor has the instructions.
+    /// Returns the value if the processor has the instructions, and `None` otherwise.
     pub(super) fn detect() -> Option<Avx512> {
         let has = is_x86_feature_detected!("avx512f")
             && is_x86_feature_detected!("avx512dq")
@@ -58,10 +58,10 @@ impl Simd for Avx512 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct F64x8(__m512d);
 
-/// Wraps an AVX-512 intrinsic as a method.
+/// Calls an AVX-512 intrinsic in an `unsafe` block.
 ///
-/// SAFETY: every value of [`F64x8`] originates from [`F64x8::splat`], which requires a proof that the processor has the
-/// instructions.
+/// SAFETY: every value of [`F64x8`] originates from [`F64x8::splat`]. This function requires an [`Avx512`],
+/// which exists only if the processor has the instructions.
 macro_rules! intrinsic {
     ($call:expr) => {
         unsafe { $call }

@@ -1,4 +1,4 @@
-//! The backend of computations: the choice of SIMD instructions and arithmetic.
+//! Backends of the computations. A backend is a set of SIMD instructions with its arithmetic.
 
 use core::fmt;
 
@@ -13,7 +13,8 @@ use super::avx512::Avx512;
 use super::register::Instructions;
 use super::{Lanes, OneLane, Simd, Unfused, Vector};
 
-/// Arithmetic class: `mul_add` rounds its result once or twice. Results of the same class are equal to the last bit.
+/// Arithmetic class of a backend: `mul_add` rounds its result either once or twice. Two backends of the same
+/// class compute results that are equal to the last bit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Arithmetic {
     /// Fused multiply-add, which rounds once: AVX2, AVX-512, NEON.
@@ -23,7 +24,7 @@ pub enum Arithmetic {
 }
 
 impl Arithmetic {
-    /// Returns the name of the arithmetic class, which the sidecar of a sweep records.
+    /// Returns the name of the arithmetic class. The sidecar of a sweep contains this name.
     pub fn name(self) -> &'static str {
         match self {
             Arithmetic::Fused => "fma",
@@ -32,11 +33,12 @@ impl Arithmetic {
     }
 }
 
-/// The processor of this machine with one set of SIMD instructions, or with scalars alone.
+/// A set of SIMD instructions of this machine's processor, or arithmetic on scalars without SIMD.
 ///
-/// Choose a backend once at the beginning of a computation, with [`Backend::best`] or [`Backend::by_name`], and pass
-/// the backend on. Code that is generic over numbers runs on the lanes of the backend ([`Backend::dispatch`]), or on
-/// scalars of its [`Arithmetic`]. The results are equal to the last bit.
+/// Choose a backend once at the beginning of a computation, with [`Backend::best`] or [`Backend::by_name`],
+/// and pass the backend to all functions that need it. Code that is generic over the number type can run on
+/// the lanes of the backend ([`Backend::dispatch`]), or on scalars with the same [`Arithmetic`]. The results
+/// on lanes and on scalars are equal to the last bit.
 #[derive(Clone, Copy, Debug)]
 pub struct Backend {
     name: &'static str,
@@ -53,7 +55,7 @@ pub trait Kernel {
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
-/// Proof that the processor has the instructions of a backend.
+/// A value that exists only if the processor has the instructions of a backend.
 #[derive(Clone, Copy, Debug)]
 enum Proof {
     #[cfg(target_arch = "x86_64")]
@@ -88,13 +90,14 @@ impl Backend {
         proofs.into_iter().filter_map(backend).collect()
     }
 
-    /// Returns the available backend with the given [name](Backend::name).
+    /// Returns the backend with the given [name](Backend::name). The result is `None` if this machine does
+    /// not have the backend.
     pub fn by_name(name: &str) -> Option<Backend> {
         Self::available().into_iter().find(|backend| backend.name() == name)
     }
 
-    /// Returns the name of the backend, which the sidecar of a sweep records: `avx512`, `avx2`, `neon`
-    /// or `scalar`.
+    /// Returns the name of the backend: `avx512`, `avx2`, `neon` or `scalar`. The sidecar of a sweep contains
+    /// this name.
     pub fn name(self) -> &'static str {
         self.name
     }
@@ -104,7 +107,8 @@ impl Backend {
         self.arithmetic
     }
 
-    /// Returns the number of lanes, which is the number of `f64` in two registers, or 1 with scalars.
+    /// Returns the number of lanes of the backend. It is the number of `f64` in two registers, or 1 for the
+    /// backend `scalar`.
     pub fn lanes(self) -> usize {
         struct Count;
 
@@ -135,7 +139,7 @@ impl Backend {
     }
 }
 
-/// Calls `kernel` from a function in which the instructions of `S` are enabled.
+/// Calls `kernel` from a function that the compiler translates into the instructions of `S`.
 #[inline(always)]
 fn enter<S: Simd, K: Kernel>(simd: S, kernel: K) -> K::Output {
     simd.vectorize(

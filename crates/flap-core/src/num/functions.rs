@@ -1,17 +1,19 @@
-//! Elementary functions on lanes, as polynomials. The results of all machines of an arithmetic class are equal to the
-//! last bit.
+//! Elementary functions for numbers with lanes, computed by polynomials. On all machines of the same
+//! arithmetic class, the results are equal to the last bit.
 //!
-//! Sine, cosine and exponential are minimax polynomials. The polynomial of the exponential is valid for |r| ≤ ½ ln 2.
-//! The logarithm follows FreeBSD's msun (`e_log.c`; Sun Microsystems, 1993).
+//! Sine, cosine and exponential are minimax polynomials. The polynomial of the exponential is valid for
+//! arguments r with |r| ≤ ½ ln 2. The logarithm uses the method of `e_log.c` in FreeBSD's library msun (Sun
+//! Microsystems, 1993).
 
 use super::lanes::{Bits, ROUND};
 use super::real::Real;
 
-/// π as the sum of two numbers. The first number has 33 significant bits, so its products with whole numbers up to 2^20
-/// are exact. The sum of both numbers is accurate to 10^-26.
+/// π as the sum of two numbers. The first number has 33 significant bits, so its products with whole numbers
+/// up to 2^20 are exact. The sum of the two numbers differs from π by less than 10^-26.
 const PI: [f64; 2] = [3.141_592_653_468_251_2, 1.215_420_101_301_238_4e-10];
 
-/// Coefficients of z, z², … in sin √z / √z − 1, for angles √z up to a quarter turn, with errors below 4·10^-17.
+/// Coefficients of z, z², … in a polynomial for sin √z / √z − 1. For angles √z up to a quarter turn, the
+/// error of the polynomial is below 4·10^-17.
 const SIN: [f64; 8] = [
     -0.166_666_666_666_666_66,
     0.008_333_333_333_333_316,
@@ -23,7 +25,8 @@ const SIN: [f64; 8] = [
     2.731_436_876_937_989_3e-15,
 ];
 
-/// Coefficients of z², z³, … in cos √z − 1 + z/2, for angles √z up to a quarter turn, with errors below 7·10^-17.
+/// Coefficients of z², z³, … in a polynomial for cos √z − 1 + z/2. For angles √z up to a quarter turn, the
+/// error of the polynomial is below 7·10^-17.
 const COS: [f64; 7] = [
     0.041_666_666_666_666_66,
     -0.001_388_888_888_888_476_5,
@@ -53,9 +56,10 @@ fn polynomial<R: Bits, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
     sum
 }
 
-/// Returns the number of half turns of an angle, and the remainder r with |r| ≤ π/2.
+/// Divides the angle `x` into a whole number of half turns and a remainder r with |r| ≤ π/2. Returns the
+/// number of half turns plus the constant [`ROUND`], and the remainder.
 ///
-/// The lowest bit of the first result is set if the number of half turns is odd.
+/// The lowest bit in the bit pattern of the first result is set if the number of half turns is odd.
 #[inline(always)]
 fn half_turns<R: Bits>(x: R) -> (R, R) {
     let rounded = x.mul_add(x.lit(core::f64::consts::FRAC_1_PI), x.lit(ROUND));
@@ -87,7 +91,8 @@ pub(super) fn sin_cos<R: Bits>(x: R) -> (R, R) {
 /// ln 2 as the sum of two numbers. The first number has 33 significant bits.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
-/// Coefficients of 1, r, r², … in (e^r − 1)/r, for |r| up to ½ ln 2, with errors below 3·10^-17.
+/// Coefficients of 1, r, r², … in a polynomial for (e^r − 1)/r. For |r| up to ½ ln 2, the error of the
+/// polynomial is below 3·10^-17.
 ///
 /// The first coefficient is exactly 1, which makes the result accurate for small r.
 const EXP: [f64; 11] = [
@@ -104,7 +109,7 @@ const EXP: [f64; 11] = [
     2.516_134_467_493_302_5e-8,
 ];
 
-/// Returns a whole number k and r with x = k ln 2 + r, |r| ≤ ½ ln 2.
+/// Returns a whole number k and a remainder r, with x = k ln 2 + r and |r| ≤ ½ ln 2.
 #[inline(always)]
 fn reduce<R: Bits>(x: R) -> (R, R) {
     let k = x.mul_add(x.lit(core::f64::consts::LOG2_E), x.lit(ROUND)) - ROUND;
@@ -116,7 +121,7 @@ fn reduce<R: Bits>(x: R) -> (R, R) {
 /// Smallest argument whose exponential is infinite: ln(2^1024), rounded up.
 const EXP_MAX: f64 = 709.782_712_893_384_1;
 
-/// Smallest argument whose exponential is a normal number: ln(2^-1022).
+/// Smallest argument whose exponential is a normal floating-point number: ln(2^-1022).
 const EXP_MIN: f64 = -708.396_418_532_264_1;
 
 /// [`Real::exp`].
@@ -155,7 +160,7 @@ pub(super) fn exp_m1_of_ordinary<R: Bits>(x: R) -> R {
     (polynomial(r, r * r, &EXP) * r).mul_add(power, power - 1.0)
 }
 
-/// Coefficients of s², s⁴, … in (ln((1 + s)/(1 − s)) − 2s)/s.
+/// Coefficients of s², s⁴, … in a polynomial for (ln((1 + s)/(1 − s)) − 2s)/s.
 const LN: [f64; 7] = [
     6.666_666_666_666_735e-1,
     3.999_999_999_940_942e-1,

@@ -1,7 +1,7 @@
-//! Access to single lanes and to the binary representation of numbers, and the instructions that compute lanes.
+//! Traits for access to single lanes, for access to the bits of numbers, and for sets of SIMD instructions.
 //!
-//! In addition to [`Real`], the integrator needs the access to single lanes, and the elementary functions need the
-//! access to the representation.
+//! The integrator reads and changes single lanes, and the elementary functions read and change the bits of
+//! numbers. The trait [`Real`] does not contain these operations.
 
 use super::real::Real;
 
@@ -10,13 +10,14 @@ pub trait Bits: Real {
     /// Returns `self`, with the opposite sign if the lowest bit of the bit pattern of `selector` is set.
     fn flip_sign_by_lowest_bit(self, selector: Self) -> Self;
 
-    /// Returns `(e, m)` with `self = 2^e m` and `m` in [1, 2), for a normal positive number.
+    /// Returns the exponent `e` and the mantissa `m` of a normal positive number, with `self = 2^e m` and `m`
+    /// in [1, 2).
     ///
     /// For NaN and infinity, `e` is 1024 and `m` is finite.
     fn exponent_and_mantissa(self) -> (Self, Self);
 
-    /// Returns log2 of a normal positive number. The result is exact for powers of two, linear between powers of two,
-    /// and up to 0.087 too small.
+    /// Returns an approximation of log2 of a normal positive number. The approximation is exact for powers of
+    /// two, linear between powers of two, and up to 0.087 too small.
     ///
     /// The result is 1024 or more for NaN and infinity, and −1023 for 0.
     fn linear_log2(self) -> Self;
@@ -35,10 +36,10 @@ pub trait Lanes: Real + Bits {
     /// Number of lanes.
     const LANES: usize;
 
-    /// Proof that the processor has the instructions of this type.
+    /// Type of a value that exists only if the processor has the instructions of this number type.
     type Token: Copy;
 
-    /// Returns `c` in every lane.
+    /// Returns a number with the value `c` in every lane.
     fn splat(token: Self::Token, c: f64) -> Self;
 
     /// Returns the number in one lane.
@@ -47,13 +48,16 @@ pub trait Lanes: Real + Bits {
     /// Replaces the number in one lane.
     fn set_lane(&mut self, lane: usize, value: f64);
 
-    /// Returns the mask that is true in the lanes whose bits are set in `bits`, with lane 0 in the lowest bit.
+    /// Returns a mask that is true in the lanes whose bits are set in `bits`. The lowest bit is the bit of
+    /// lane 0.
     fn mask(token: Self::Token, bits: u64) -> Self::Mask;
 
-    /// Returns one bit per lane of `mask`, with lane 0 in the lowest bit.
+    /// Returns a number with one bit for each lane, which is set if `mask` is true in the lane. The lowest
+    /// bit is the bit of lane 0.
     fn bits(mask: Self::Mask) -> u64;
 
-    /// Returns 1/x of a normal positive number up to 2^1022, with relative errors below 1.74·10^-3.
+    /// Returns an approximation of 1/x for a normal positive number x up to 2^1022. The relative error is
+    /// below 1.74·10^-3.
     #[inline(always)]
     fn rough_reciprocal(self) -> Self {
         let guess = self.reciprocal_guess();
@@ -61,8 +65,8 @@ pub trait Lanes: Real + Bits {
         guess * (self * guess).mul_add(self.lit(-0.887_348_353_552_859_6), self.lit(1.885_615_251_299_826_8))
     }
 
-    /// Returns 2^x for |x| up to 700. The result is exact for whole numbers, and has a relative error below 2.0·10^-3
-    /// for other numbers.
+    /// Returns an approximation of 2^x for |x| up to 700. The approximation is exact for whole numbers, and
+    /// has a relative error below 2.0·10^-3 for other numbers.
     #[inline(always)]
     fn rough_exp2(self) -> Self {
         let k = self.round_ties_even();
@@ -78,21 +82,24 @@ pub trait Lanes: Real + Bits {
     }
 }
 
-/// Proof that the processor has a set of SIMD instructions. [`OneLane`](super::OneLane) is the proof for scalars.
+/// A value that exists only if the processor has a set of SIMD instructions. The type
+/// [`OneLane`](super::OneLane) takes the place of SIMD instructions for scalars.
 pub trait Simd: Copy {
-    /// Lanes that the instructions compute: two registers of `f64`, or one scalar.
+    /// Number type that the instructions compute with: two registers of `f64`, or one scalar.
     type Vector: Lanes<Token = Self>;
 
-    /// Calls `work` in a function in which the SIMD instructions are enabled. Mark functions that `work` calls
-    /// `#[inline(always)]`, so that the compiler uses the SIMD instructions for these functions, too.
+    /// Calls `work` in a function that the compiler translates into the SIMD instructions. Write
+    /// `#[inline(always)]` before each function that `work` calls, so that the compiler also translates this
+    /// function into the SIMD instructions.
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T;
 }
 
-/// Lanes: 16 with AVX-512, 8 with AVX2, 4 with NEON, 1 with scalars.
+/// Number type for the instructions `S`. It has 16 lanes with AVX-512, 8 lanes with AVX2, 4 lanes with NEON,
+/// and 1 lane with scalars.
 pub type Vector<S> = <S as Simd>::Vector;
 
-/// The number 1.5 · 2^52. If the number is added to x, the sum contains x rounded to a whole number, as a two's
-/// complement in the low bits.
+/// The number 1.5 · 2^52. If this number is added to x, the low bits of the sum contain x, rounded to a whole
+/// number, in two's complement.
 pub(super) const ROUND: f64 = 6_755_399_441_055_744.0;
 
 pub(super) const MANTISSA_BITS: u64 = 0x000f_ffff_ffff_ffff;
@@ -100,7 +107,8 @@ pub(super) const EXPONENT_BITS: u64 = 0x7ff0_0000_0000_0000;
 pub(super) const ONE_BITS: u64 = 0x3ff0_0000_0000_0000;
 /// Sum of the bit patterns of a power of two and of its reciprocal.
 pub(super) const RECIPROCAL_BITS: u64 = 0x7fe0_0000_0000_0000;
-/// Difference of 1 in [`Bits::linear_log2`], in units of the lowest bit of the bit pattern without its last 12 bits.
+/// Change of [`Bits::linear_log2`] if the bit pattern of the number, without its last 12 bits, increases by
+/// 1.
 pub(super) const OCTAVE: f64 = 1.0 / 1_099_511_627_776.0;
 pub(super) const TWO_52: f64 = 4_503_599_627_370_496.0;
 pub(super) const TWO_52_BITS: u64 = 0x4330_0000_0000_0000;

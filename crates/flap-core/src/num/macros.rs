@@ -24,7 +24,8 @@ macro_rules! operator {
     };
 }
 
-/// Implements operators with a constant on the right, by calls of the operators with two numbers.
+/// Implements the operators `+`, `-` and `*` with an `f64` constant on the right. The operators convert the
+/// constant to the number type.
 macro_rules! constants_on_the_right {
     ([$($generics:tt)*] $Type:ty) => {
         $crate::num::macros::constants_on_the_right!([$($generics)*] $Type, Add::add);
@@ -42,7 +43,7 @@ macro_rules! constants_on_the_right {
     };
 }
 
-/// Implements methods of a wrapper type by calls of the same methods of the wrapped number.
+/// Implements methods of a wrapper type. Each method calls the method of the same name of the wrapped number.
 macro_rules! of_inner {
     ($Wrapper:ident: $($method:ident($($argument:ident),*)),*) => {
         $(
@@ -54,7 +55,8 @@ macro_rules! of_inner {
     };
 }
 
-/// Implements methods of a pair by calls of the same methods of both numbers.
+/// Implements methods of a pair. Each method calls the method of the same name of the two numbers in the
+/// pair.
 macro_rules! of_both {
     ($Pair:ident: $($method:ident($($argument:ident),*)),*) => {
         $(

@@ -9,14 +9,14 @@ use super::lanes::{Bits, Lanes};
 use super::macros::{constants_on_the_right, functions_of_lanes, of_both, operator};
 use super::real::Real;
 
-/// Two groups of lanes that are computed side by side.
+/// Two groups of lanes that the processor computes at the same time.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair<L> {
     lo: L,
     hi: L,
 }
 
-/// The mask of a [`Pair`].
+/// Result of a comparison in each lane of a [`Pair`].
 #[derive(Clone, Copy)]
 pub(super) struct PairMask<M> {
     lo: M,

@@ -1,30 +1,31 @@
-//! Groups of numbers with one set of numbers for each lane, such as the constants of a point or the sums over a cycle.
+//! Groups of numbers with separate values in each lane, such as the constants of a point or the sums over a
+//! cycle.
 
 use super::lanes::Lanes;
 use super::real::Real;
 
-/// A group of numbers with one set of numbers for each lane.
+/// A group of numbers with separate values in each lane.
 ///
 /// The trait is implemented for numbers, for structs declared by [`per_lane!`](crate::per_lane), and for arrays and
 /// pairs of groups. The type `()` is the empty group.
 pub trait PerLane<R: Real>: Copy {
-    /// Set of numbers in one lane.
+    /// Values of the group in one lane.
     type One: Copy;
 
-    /// Returns a group with the same set of numbers in each lane, in the number type of `like`.
+    /// Returns a group with the values `one` in every lane, of the same number type as `like`.
     fn fill(like: R, one: &Self::One) -> Self;
 
-    /// Replaces the set of numbers in one lane.
+    /// Replaces the values of the group in one lane.
     fn set(&mut self, lane: usize, one: &Self::One)
     where
         R: Lanes;
 
-    /// Returns the set of numbers in one lane.
+    /// Returns the values of the group in one lane.
     fn get(&self, lane: usize) -> Self::One
     where
         R: Lanes;
 
-    /// Returns true if no number in the set is infinite or NaN.
+    /// Returns true if all values in `one` are finite.
     fn is_finite(one: &Self::One) -> bool;
 }
 
@@ -146,11 +147,11 @@ impl<R: Real, P: PerLane<R>, const N: usize> PerLane<R> for [P; N] {
     }
 }
 
-/// Declares a struct with one set of numbers for each lane. The fields of the struct are numbers `R` or groups of
-/// numbers.
+/// Declares a struct with separate values in each lane. The fields of the struct are numbers of the type `R`,
+/// or groups of numbers.
 ///
-/// `Name<f64>` is the set of numbers in one lane. You write the visibility of the struct and of each field as in an
-/// ordinary struct.
+/// The struct `Name<f64>` contains the values in one lane. You write the visibility of the struct and of each
+/// field as in an ordinary struct.
 ///
 /// ```
 /// flap_core::per_lane! {

@@ -1,4 +1,4 @@
-//! The trait of the numbers in the equations of models.
+//! The trait that the numbers in the equations of models implement.
 
 use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
@@ -47,40 +47,43 @@ pub trait Real:
     /// for NaN.
     fn exp(self) -> Self;
 
-    /// Returns e^x − 1, which is accurate for small x, too. The result is infinite above 709.78, and NaN for NaN.
+    /// Returns e^x − 1. The result is accurate for small x, too. It is infinite above 709.78, and NaN for
+    /// NaN.
     fn exp_m1(self) -> Self;
 
     /// Returns the natural logarithm. The result is −∞ for 0 and subnormal numbers, and NaN for negative numbers and
     /// for NaN.
     fn ln(self) -> Self;
 
-    /// Returns ln(1 + x), which is accurate for small x, too. The result is −∞ for −1, and NaN for smaller numbers and
-    /// for NaN.
+    /// Returns ln(1 + x). The result is accurate for small x, too. It is −∞ for −1, and NaN for smaller
+    /// numbers and for NaN.
     fn ln_1p(self) -> Self;
 
-    /// Returns the mask of `self < other`; false if either is NaN.
+    /// Returns a mask that is true in the lanes with `self < other`. The mask is false in lanes in which one
+    /// of the two numbers is NaN.
     fn lt(self, other: Self) -> Self::Mask;
 
     /// Returns `yes` in the lanes in which `mask` is true, and `no` in the other lanes.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// Returns the entries of `table` for the value of `self` in each lane. The entries are constants: their
-    /// derivatives with respect to `self` are zero.
+    /// Calls `table` with the value of `self` in each lane, and returns the numbers that `table` returns.
+    /// These numbers are constants: their derivatives with respect to `self` are zero.
     fn look_up<const N: usize>(self, table: impl Fn(f64) -> [f64; N]) -> [Self; N];
 
-    /// Calls `work`. Scalars and SIMD types call `work` out of line, so that `work` is compiled once.
+    /// Calls `work`. Scalars and SIMD types do not inline the call, so that the compiler compiles `work` only
+    /// once.
     #[inline(always)]
     fn outlined<T>(self, work: impl FnOnce() -> T) -> T {
         work()
     }
 
-    /// Returns the smaller of two numbers; `other` if either number is NaN.
+    /// Returns the smaller of two numbers. The result is `other` if one of the numbers is NaN.
     #[inline(always)]
     fn min(self, other: Self) -> Self {
         Self::select(self.lt(other), self, other)
     }
 
-    /// Returns the larger of two numbers; `other` if either number is NaN.
+    /// Returns the larger of two numbers. The result is `other` if one of the numbers is NaN.
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         Self::select(other.lt(self), self, other)
@@ -92,46 +95,47 @@ pub trait Real:
         self.sin_cos().0
     }
 
-    /// Returns the angle (rad) between the x axis and the point (`x`, `self`), for `x` ≥ 0 and `self` ≥ 0. The result
-    /// is zero if both numbers are zero. The error of the angle is below 10^-15.
+    /// Returns the angle (rad) between the x axis and the line from the origin to the point (`x`, `self`).
+    /// Both coordinates must be zero or more. The angle is zero if both coordinates are zero. The error of
+    /// the angle is below 10^-15.
     #[inline(always)]
     fn angle_over(self, x: Self) -> Self {
         angle_over(self, x)
     }
 
-    /// Returns [`Real::exp`] of a number from −708 to 709. The function does not check this range. For other numbers,
-    /// the result is unspecified.
+    /// Returns [`Real::exp`] of a number from −708 to 709. The function does not check this range. Outside
+    /// this range, the result is unspecified.
     #[inline(always)]
     fn exp_of_ordinary(self) -> Self {
         self.exp()
     }
 
-    /// Returns [`Real::exp_m1`] of a number from −708 to 709. The function does not check this range. For other
-    /// numbers, the result is unspecified.
+    /// Returns [`Real::exp_m1`] of a number from −708 to 709. The function does not check this range. Outside
+    /// this range, the result is unspecified.
     #[inline(always)]
     fn exp_m1_of_ordinary(self) -> Self {
         self.exp_m1()
     }
 
-    /// Returns [`Real::ln`] of a normal positive number. The function does not check its argument. For other numbers,
-    /// the result is unspecified.
+    /// Returns [`Real::ln`] of a normal positive number. The function does not check its argument. For all
+    /// other arguments, the result is unspecified.
     #[inline(always)]
     fn ln_of_normal(self) -> Self {
         self.ln()
     }
 
-    /// Returns [`Real::ln_1p`] of a number x > −1, if 1 + x is a normal number up to 10^300. The function does not
-    /// check its argument. For other numbers, the result is unspecified.
+    /// Returns [`Real::ln_1p`] of a number x > −1, if 1 + x is a normal number up to 10^300. The function
+    /// does not check its argument. For all other arguments, the result is unspecified.
     #[inline(always)]
     fn ln_1p_of_normal(self) -> Self {
         self.ln_1p()
     }
 }
 
-/// Coefficients of the rational approximation of (arctan x − x)/x³ in x², for |x| up to tan(π/8).
+/// Coefficients of a rational function of x² that approximates (arctan x − x)/x³, for |x| up to tan(π/8).
 ///
-/// The first array contains the numerator, and the second array the denominator without its leading coefficient 1. Both
-/// begin with the highest power (Cephes, `atan.c`; Moshier, 1995).
+/// The first array contains the numerator. The second array contains the denominator without its leading
+/// coefficient 1. The coefficients are in descending order of the powers (Cephes, `atan.c`; Moshier, 1995).
 const ARCTAN: [[f64; 5]; 2] = [
     [
         -8.750_608_600_031_904e-1,

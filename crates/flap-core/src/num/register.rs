@@ -1,4 +1,5 @@
-//! One SIMD register of `f64`, for the instruction sets that `fearless_simd` supports.
+//! A number type that is one SIMD register of `f64`, for the instruction sets that the crate `fearless_simd`
+//! supports.
 
 use fearless_simd::{Bytes, ExtractToken, Select, Simd, SimdBase, SimdFloat, SimdFrom, SimdMask};
 
@@ -10,7 +11,7 @@ use super::macros::{constants_on_the_right, functions_of_lanes, of_inner, operat
 use super::pair::Pair;
 use super::real::Real;
 
-/// Proof that the processor has the instructions of `S`.
+/// A value that exists only if the processor has the instructions of `S`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Instructions<S>(pub(super) S);
 
@@ -23,7 +24,7 @@ impl<S: Simd> lanes::Simd for Instructions<S> {
     }
 }
 
-/// A register has 4 lanes with AVX2, and 2 lanes with NEON.
+/// One SIMD register. It has 4 lanes with AVX2, and 2 lanes with NEON.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Register<S: Simd>(S::f64s);
 

@@ -1,4 +1,4 @@
-//! Scalars: one number at a time.
+//! Scalars: number types with a single lane.
 
 use core::marker::PhantomData;
 
@@ -17,21 +17,22 @@ pub trait Scalar: Bits + Lanes<Token = OneLane<Self>, Mask = bool> {
     /// Returns the value.
     fn value(self) -> f64;
 
-    /// Calls `work` in a function in which the instructions for the arithmetic of the scalar are enabled.
+    /// Calls `work` in a function that the compiler translates into the instructions for the arithmetic of
+    /// the scalar.
     ///
     /// # Panics
     ///
-    /// Panics if the processor does not have the instructions. On x86-64, `f64` needs AVX2. On processors without AVX2,
-    /// use [`Unfused`].
+    /// Panics if the processor does not have the instructions for the arithmetic of the scalar. On x86-64,
+    /// the scalar `f64` needs AVX2. On processors without AVX2, use [`Unfused`].
     fn enter<T>(work: impl FnOnce() -> T) -> T;
 }
 
-/// The scalar `R` in place of SIMD lanes: a [`Simd`] whose vector has one lane.
+/// An implementation of [`Simd`] for code without SIMD: the number type is the scalar `R`, with one lane.
 #[derive(Clone, Copy, Debug)]
 pub struct OneLane<R>(PhantomData<R>);
 
 impl<R: Scalar> OneLane<R> {
-    /// Returns the proof without a check, because every processor can compute with scalars.
+    /// Returns the value without a check of the processor, because every processor can compute with scalars.
     pub const fn new() -> OneLane<R> {
         OneLane(PhantomData)
     }
@@ -82,7 +83,7 @@ impl<R: Scalar> Lanes for R {
     }
 }
 
-/// The scalar of [`super::Arithmetic::Fused`], whose `mul_add` rounds once.
+/// The type `f64` is the scalar of [`super::Arithmetic::Fused`]: `mul_add` rounds its result once.
 impl Scalar for f64 {
     #[inline(always)]
     fn new(value: f64) -> f64 {
@@ -195,7 +196,7 @@ fn call<T>(work: impl FnOnce() -> T) -> T {
     work()
 }
 
-/// An `f64` whose `mul_add` rounds twice: the scalar of [`super::Arithmetic::Unfused`].
+/// An `f64` whose `mul_add` rounds its result twice. It is the scalar of [`super::Arithmetic::Unfused`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unfused(pub f64);
 

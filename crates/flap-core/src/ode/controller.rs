@@ -1,52 +1,55 @@
-//! Step-size controller: it accepts or rejects a step by its error, and chooses the next step size.
+//! The step-size controller accepts or rejects a step according to the error of the step, and chooses the
+//! next step size.
 //!
-//! The method is proportional-integral control with the constants of DOPRI5 (Hairer I, section II.4 and the code).
-//! The safety factor is 0.9, β is 0.04, and there is no growth right after a rejection. Factors lie between 0.21 and
-//! 9.5 (0.2 and 10 in DOPRI5).
+//! The method is proportional-integral control with the constants of DOPRI5 (Hairer I, section II.4 and the
+//! code). The safety factor is 0.9, and β is 0.04. Right after a rejected step, the step size does not grow.
+//! The next step size is 0.21 to 9.5 times the last step size (0.2 to 10 times in DOPRI5).
 //!
-//! Factors are rounded to a few per octave. Motions that hardly differ are then integrated with exactly the same
-//! steps, and their final states differ just as little. Otherwise the state at the end of a period would vary by the
-//! integration error, and a motion would not meet a tight settling tolerance.
+//! The base-2 logarithm of the factor between two step sizes is rounded to a multiple of 1/8. Two motions
+//! that hardly differ are therefore integrated with exactly the same steps, and their final states also
+//! hardly differ. Without this rounding, the state at the end of a period would vary by the integration
+//! error. A motion would then not meet a tight settling tolerance.
 
 use crate::num::Lanes;
 
 const SAFETY_LOG2: f64 = -0.152_003_093_445_049_97; // log2 0.9
 const BETA: f64 = 0.04;
 const ALPHA: f64 = 0.2 - 0.75 * BETA;
-/// Smallest and largest factor, in octaves: 0.21 and 9.5.
+/// Base-2 logarithms of the smallest and the largest factor between two step sizes, 0.21 and 9.5.
 const OCTAVES_MIN: f64 = -18.0 / 8.0;
 const OCTAVES_MAX: f64 = 26.0 / 8.0;
-/// log2 of the square of 10^-4. Smaller errors are stored as this value.
+/// Base-2 logarithm of the squared error 10^-8. For a smaller error, the controller stores this value.
 const LOG2_ERROR_MIN: f64 = -26.575_424_759_098_897;
 
-/// Memory of the controller from step to step.
+/// Values that the controller keeps from one step to the next.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Memory<R> {
-    /// log2 of the square of the last accepted error.
+    /// Base-2 logarithm of the squared error of the last accepted step.
     pub log2_error: R,
-    /// Largest factor allowed for the next step, in octaves. It is 0 (a factor of 1) right after a rejection.
+    /// Base-2 logarithm of the largest allowed ratio of the next step size to the last step size. It is 0 (a
+    /// ratio of 1) right after a rejected step.
     pub(super) octaves_max: R,
 }
 
 impl<R: Lanes> Memory<R> {
-    /// Returns the memory of a run before its first step.
+    /// Returns the values of the controller before the first step of a run.
     #[inline(always)]
     pub(super) fn new(like: R) -> Memory<R> {
         Memory { log2_error: like.lit(LOG2_ERROR_MIN), octaves_max: like.lit(OCTAVES_MAX) }
     }
 }
 
-/// Decision of the controller.
+/// Decision of the controller on an attempted step.
 #[derive(Clone, Copy)]
 pub(super) struct Verdict<R: Lanes> {
     /// True if the step is accepted.
     pub(super) accepted: R::Mask,
-    /// Factor on the step size.
+    /// Ratio of the next step size to the size of the attempted step.
     pub(super) factor: R,
 }
 
-/// Returns the decision on a step with this squared error (see [`super::norm`]), and updates the memory. NaN is
-/// rejected.
+/// Returns the decision on a step with the given squared error (see [`super::norm`]), and updates `memory`. A
+/// step whose error is NaN is rejected.
 #[inline(always)]
 pub(super) fn judge<R: Lanes>(error_squared: R, memory: &mut Memory<R>) -> Verdict<R> {
     let accepted = error_squared.lt(error_squared.lit(1.0));

@@ -1,20 +1,24 @@
 //! Dormand-Prince 5(4), for one run at a time or for many runs in SIMD lanes.
 //!
 //! - [`tableau`]: coefficients, checked when the crate is compiled
-//! - [`step`]: one step: stages, new state, error estimate, interpolation. It contains no step-size control
-//! - [`norm`], `controller`, `start`: size of the error, next step size, first step size
-//! - `switch`: right-hand sides that jump where a function changes sign
-//! - `replay`: a run repeated on the same steps, with other constants and initial states
-//! - `variation`: a run with its responses to small changes of the initial state
-//! - [`solve`]: one run on scalars, in simple code: the reference for the ensemble
-//! - [`ensemble`]: many runs in lanes, each with its own time, step size and constants
+//! - [`step`]: computation of one step without step-size control: stages, new state, error estimate,
+//!   interpolation
+//! - [`norm`], `controller`, `start`: computation of the size of the error, of the next step size, and of the
+//!   first step size
+//! - `switch`: integration of right-hand sides that jump where a switching function changes sign
+//! - `replay`: integration of runs on the recorded steps of an earlier run, with different constants and
+//!   initial states
+//! - `variation`: integration of a run together with its responses to small changes of the initial state
+//! - [`solve`]: integration of one run on scalars, in simple code. Tests compare the ensemble with this code
+//! - [`ensemble`]: integration of many runs in lanes, each with its own time, step size and constants
 //!
-//! Time runs from 0 to the end of a *span*, usually one drive period, and every span ends exactly on a step. At its
-//! end the caller checks the state, and stops or starts another span. If the inputs repeat with the span, times
-//! therefore never grow.
+//! The integration of a run is divided into *time spans*, usually drive periods. Time is 0 at the beginning
+//! of each time span, and the last step ends exactly at the end of the time span. At the end of a time span,
+//! the caller checks the state. The caller then stops the run or starts the next time span. If the inputs are
+//! the same in each time span, the numbers for the time therefore stay small in long runs.
 //!
-//! Other equations implement [`Ode`]. `examples/jafferis_fig2_3` integrates three systems to their settled motions,
-//! and `examples/own_equations` runs thousands of points in lanes.
+//! To integrate your own equations, implement [`Ode`]. `examples/jafferis_fig2_3` integrates three systems
+//! until their motions have settled, and `examples/own_equations` runs thousands of points in lanes.
 
 mod controller;
 pub mod ensemble;

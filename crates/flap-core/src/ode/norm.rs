@@ -1,15 +1,15 @@
-//! Size of an error, relative to the tolerances.
+//! Size of the error of a step, relative to the tolerances.
 
 use crate::num::Lanes;
 
-/// Returns the mean square of error over tolerance: Hairer I Eq. (II.4.11) without the root. A step below 1 is
-/// accepted.
+/// Returns the mean square of the errors of a step, each divided by its tolerance: Hairer I, Eq. (II.4.11),
+/// without the square root. A step is accepted if the result is below 1.
 ///
 /// ```text
 /// 1/N Σᵢ (eᵢ / (atolᵢ + rtol max(|yᵢ|, |yᵢ new|)))²
 /// ```
 ///
-/// The quotients are accurate to 0.2 %, because an approximate reciprocal replaces the division.
+/// Each quotient has an error of up to 0.2 %, because an approximate reciprocal replaces the division.
 #[inline(always)]
 pub fn error_squared<R: Lanes, const N: usize>(
     error: &[R; N],
@@ -20,7 +20,7 @@ pub fn error_squared<R: Lanes, const N: usize>(
     add_squares(rtol.lit(0.0), error, [y, y_new], atol, rtol) * (1.0 / N as f64)
 }
 
-/// Returns `sum` plus the squares of error over tolerance.
+/// Returns `sum` plus the squares of the errors of a step, each divided by its tolerance.
 #[inline(always)]
 pub(super) fn add_squares<R: Lanes, const N: usize>(
     mut sum: R,

@@ -1,8 +1,10 @@
-//! A run repeated on the same steps, with other constants and initial states.
+//! Integration of runs on the recorded steps of an earlier run, with different constants and initial states.
 //!
-//! With a step-size controller, the final state jumps by about the tolerance when a constant changes. On fixed steps,
-//! given as fractions of the span, it is a smooth function: its differences are accurate derivatives at any
-//! tolerance. A step that ends on the switching surface again ends on it, wherever the run meets the surface.
+//! If a step-size controller chooses the steps, the final state jumps by about the tolerance when a constant
+//! changes. If the steps are fixed fractions of the time span, the final state is a smooth function of the
+//! constants. Finite differences of the final state are then accurate derivatives at any tolerance. If a
+//! recorded step ends on the switching surface, the repeated step also ends on the surface. The run may reach
+//! the surface at a different time.
 
 use core::ops::ControlFlow;
 
@@ -13,30 +15,31 @@ use super::switch::landing_size;
 use super::{Interrupt, Ode, Outcome, Start, Tolerances, input, slope};
 use crate::num::{Lanes, PerLane, Scalar, Simd, Vector};
 
-/// A recorded step.
+/// A recorded step of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct RecordedStep {
-    /// End of the step, as a fraction of the span.
+    /// End of the step, as a fraction of the time span.
     pub(crate) end: f64,
-    /// Side of the switching surface: +1 or −1.
+    /// Side of the switching surface on which the step lies: +1 or −1.
     pub(crate) side: f64,
-    /// True if the step ends on the surface, where the run changes sides.
+    /// True if the step ends on the switching surface. The next step is then on the opposite side.
     pub(crate) lands: bool,
 }
 
-/// Result of a repeated run.
+/// Result of a run on recorded steps.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Repeated<T, const N: usize> {
     /// Final state.
     pub(crate) y: [f64; N],
     /// Totals of the observer.
     pub(crate) totals: T,
-    /// True if the run met the switching surface close to where the first run did, within a small fraction of a mean
-    /// step. Otherwise the result is unusable.
+    /// True if the run and the recorded run reached the switching surface at almost equal times. The
+    /// difference must be a small fraction of a mean step. If `meets` is false, the result is unusable.
     pub(crate) meets: bool,
 }
 
-/// Records the accepted steps of a run over one span, and its outcome. The steps of a failed run are unusable.
+/// Returns the accepted steps of a run over one time span, and the outcome of the run. The steps of a failed
+/// run are unusable.
 pub(crate) fn record<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
@@ -65,10 +68,11 @@ pub(crate) fn record<O: Ode<N>, R: Scalar, const N: usize>(
     (recording, outcome)
 }
 
-/// Repeats the steps of `recording` from each of `starts`, in lanes, each over its own span.
+/// Integrates one run from each of `starts`, in lanes, on the steps of `recording`. The steps are scaled to
+/// the time span of each run.
 ///
-/// Every run evaluates six right-hand sides per step, eighteen if a step lands on the surface, and a few at changes
-/// of sides.
+/// Every run evaluates the right-hand side six times per step, or 18 times if the step ends on the switching
+/// surface. One more evaluation is necessary at the start and after each change of the side.
 pub(crate) fn replay<S, O, V, const N: usize>(
     simd: S,
     ode: &O,
@@ -91,14 +95,15 @@ where
     ends
 }
 
-/// Number of repetitions of a step to land on the surface. Each repetition squares the error, which is small from the
-/// beginning.
+/// Number of times that a step is repeated so that it ends on the switching surface. The first attempt ends
+/// close to the surface, and each repetition squares this small distance.
 const LANDINGS: u32 = 2;
 
-/// Largest shift of a landing, as a fraction of a mean step.
+/// Largest allowed shift of the time at which a run reaches the switching surface, as a fraction of a mean
+/// step.
 const NEAR: f64 = 1e-2;
 
-/// Repeats at most as many runs as there are lanes.
+/// Integrates a group of runs on the steps of `recording`. The group has at most one run for each lane.
 #[inline(always)]
 fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     token: R::Token,

@@ -1,7 +1,8 @@
-//! One run on scalars, in simple code.
+//! Integration of one run on scalars, in simple code.
 //!
-//! It makes the same decisions as [`super::ensemble`] in the same arithmetic, so its results are equal to the last
-//! bit. It is the reference for tests of the ensemble.
+//! The code makes the same decisions as [`super::ensemble`], with the same arithmetic. The results of this
+//! module and of the ensemble are therefore equal to the last bit. Tests compare the results of the ensemble
+//! with the results of this module.
 
 use core::ops::ControlFlow;
 
@@ -16,10 +17,10 @@ use super::{
 };
 use crate::num::{PerLane, Scalar};
 
-/// Integrates one run until `at_span_end` breaks or the run fails.
+/// Integrates one run until `at_span_end` returns [`ControlFlow::Break`] or the run fails.
 ///
-/// `on_step` receives every accepted step, `at_span_end` the state at the end of each span. `R` is `f64` or
-/// [`crate::num::Unfused`].
+/// The integrator calls `on_step` with every accepted step, and `at_span_end` with the state at the end of
+/// each time span. The number type `R` is `f64` or [`crate::num::Unfused`].
 pub fn solve<O: Ode<N>, R: Scalar, const N: usize>(
     ode: &O,
     tolerances: &Tolerances,
@@ -30,12 +31,14 @@ pub fn solve<O: Ode<N>, R: Scalar, const N: usize>(
     solve_until::<O, R, N>(ode, tolerances, start, &never, &mut on_step, &mut at_span_end)
 }
 
-/// Callback for accepted steps.
+/// Callback that receives every accepted step.
 type OnStep<'a, O, R, const N: usize> = dyn FnMut(&<O as Ode<N>>::Constants<R>, &Attempt<'_, R, N>) + 'a;
 
-/// [`solve`] that also ends when `interrupted` returns true, with the ending "stopped".
+/// Integrates one run as [`solve`] does. The run also ends if `interrupted` returns true, with the ending
+/// [`Ending::Stopped`].
 ///
-/// The caller must check `interrupted` too. The callbacks are not generic, so this is compiled once per system of
+/// The ending does not show whether the run was interrupted, so the caller must also call `interrupted`. The
+/// types of the callbacks are not generic, so the function is compiled only once for each system of
 /// equations.
 #[inline(never)]
 pub(crate) fn solve_until<O: Ode<N>, R: Scalar, const N: usize>(

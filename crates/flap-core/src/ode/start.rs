@@ -1,4 +1,4 @@
-//! First slope and first step size.
+//! Computation of the first slope and the first step size of a run.
 
 use super::norm::add_squares;
 use super::variation::{Varied, slopes_outlined};
@@ -7,8 +7,9 @@ use crate::num::Lanes;
 
 /// Returns the slope at time 0 and the first step size, by the algorithm of Hairer I, section II.4.
 ///
-/// `atol` contains the absolute tolerances of states and of responses. The algorithm evaluates two right-hand sides.
-/// If the state or its slope is very small, for example at rest, the trial step is a ten-thousandth of the span.
+/// `atol` contains the absolute tolerances of states and of responses. The algorithm evaluates the right-hand
+/// side twice. If the state or its slope is very small, for example at rest, the trial step is a
+/// ten-thousandth of the time span.
 #[inline(always)]
 pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     ode: &O,
@@ -55,7 +56,7 @@ pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     (k1, (h0 * 100.0).min(h1).min(span))
 }
 
-/// Returns the root mean square of `x` over the tolerances at `y`.
+/// Returns the root mean square of the components of `x`, each divided by its tolerance at the state `y`.
 #[inline(always)]
 fn weighted_norm<R: Lanes, const N: usize, const D: usize>(
     x: &Varied<[R; N], D>,
@@ -70,12 +71,13 @@ fn weighted_norm<R: Lanes, const N: usize, const D: usize>(
     (sum * (1.0 / (N * (1 + D)) as f64)).sqrt()
 }
 
-/// Returns the step size at the beginning of the next span, given the last span's first step and the controller's
-/// proposal.
+/// Returns the first step size of the next time span. `last` is the first step size of the last time span,
+/// and `proposed` is the step size that the controller proposes.
 ///
-/// Spans of a periodic motion should be integrated with equal steps. The state at their ends then converges as the
-/// motion does; otherwise it varies by the integration error. The old size is therefore kept, with a new controller,
-/// unless it differs too much from the proposal.
+/// All time spans of a periodic motion should be integrated with the same steps. The states at the ends of
+/// the time spans then converge if the motion converges. With different steps, these states would vary by the
+/// integration error. The result is therefore `last`, unless `last` and `proposed` differ by a factor of two
+/// or more.
 #[inline(always)]
 pub(super) fn span_step(last: f64, proposed: f64) -> f64 {
     if 0.5 * last < proposed && proposed < 2.0 * last { last } else { proposed }

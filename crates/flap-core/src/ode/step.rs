@@ -1,14 +1,15 @@
-//! One step of the method: stages, new state, error estimate. It contains no step-size control and does not allocate.
+//! One step of the integration method: stages, new state, error estimate. The code contains no step-size
+//! control and does not allocate memory.
 
 use super::Ode;
 use super::tableau::{self, A, B, C, E, STAGES};
 use super::variation::{Varied, slopes, slopes_outlined};
 use crate::num::Real;
 
-/// A step: its initial state and the results of an attempt.
+/// A step of the integration: its initial state, and the results of the last attempt to compute the step.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<R, const N: usize> {
-    /// State at each stage: the old state first, the new state last.
+    /// State at each stage. The first stage has the old state, and the last stage has the new state.
     pub y: [[R; N]; STAGES],
     /// Slope at each stage. The last slope is the first slope of the next step.
     pub k: [[R; N]; STAGES],
@@ -19,18 +20,19 @@ pub struct Step<R, const N: usize> {
 /// An attempted step and its position in time.
 #[derive(Clone, Copy, Debug)]
 pub struct Attempt<'a, R, const N: usize> {
-    /// Time within the span at the beginning of the step (s).
+    /// Time within the time span at the beginning of the step (s).
     pub t: R,
     /// Step size (s).
     pub h: R,
-    /// Side of the switching surface.
+    /// Side of the switching surface on which the step lies: +1 or −1.
     pub side: R,
     /// Stages of the step.
     pub step: &'a Step<R, N>,
 }
 
 impl<R: Real, const N: usize> Attempt<'_, R, N> {
-    /// Returns the time integral over the step of quantities at a stage and its time, with the weights of the method.
+    /// Returns the time integral of quantities over the step, by the quadrature weights of the integration
+    /// method. `value` returns the quantities, given the index of a stage and the time of this stage.
     #[inline(always)]
     pub fn integral<const M: usize>(&self, value: impl Fn(usize, R) -> [R; M]) -> [R; M] {
         let Attempt { t, h, .. } = *self;
@@ -47,20 +49,21 @@ impl<R: Real, const N: usize> Attempt<'_, R, N> {
 }
 
 impl<R: Real, const N: usize> Step<R, N> {
-    /// Returns a step from `y` with the slope `k1`, before any attempt.
+    /// Returns a step that begins at the state `y` with the slope `k1`, before the first attempt.
     #[inline(always)]
     pub fn new(y: [R; N], k1: [R; N]) -> Step<R, N> {
         Step { y: [y; STAGES], k: [k1; STAGES], error: y }
     }
 
-    /// Attempts the step with size `h` from time `t`, on one `side` of a switching surface. Evaluates six right-hand
-    /// sides.
+    /// Attempts the step with size `h` from time `t`, on one `side` of a switching surface. An attempt
+    /// evaluates the right-hand side six times.
     #[inline(always)]
     pub fn attempt<O: Ode<N>>(&mut self, ode: &O, c: &O::Constants<R>, t: R, h: R, side: R) {
         self.attempt_with(&mut [], ode, c, t, h, side);
     }
 
-    /// [`Step::attempt`] for the state and its `responses`.
+    /// Attempts the step for the state and for its `responses`, as [`Step::attempt`] does for the state
+    /// alone.
     #[inline(always)]
     pub(super) fn attempt_with<O: Ode<N>, const D: usize>(
         &mut self,
@@ -139,7 +142,7 @@ impl<R: Real, const N: usize> Step<R, N> {
         }
     }
 
-    /// Returns the state at a stage, given the slope at the stage before.
+    /// Returns the state at a stage, given the slope at the previous stage.
     #[inline(always)]
     fn state(&self, stage: usize, h: R, last: &[R; N]) -> [R; N] {
         let mut y = combine(&self.y[0], h, &self.k, &A[stage], stage - 1);
@@ -176,7 +179,8 @@ impl<R: Real, const N: usize> Step<R, N> {
         out
     }
 
-    /// Sets the initial state to the end of the attempt, in the lanes in which it was `accepted`.
+    /// Replaces the initial state by the state at the end of the step, in the lanes in which the step was
+    /// `accepted`.
     #[inline(always)]
     pub(crate) fn advance(&mut self, accepted: R::Mask) {
         for i in 0..N {
@@ -186,13 +190,13 @@ impl<R: Real, const N: usize> Step<R, N> {
     }
 }
 
-/// Largest number of components of an input that is computed for all stages of a step at once.
+/// Largest number of numbers in an input for which the inputs of all stages of a step are computed together.
 const AHEAD: usize = 3;
 
-/// Number of components whose sums stay in registers while slopes are added.
+/// Number of state components that are summed together, so that the sums stay in registers.
 const BLOCK: usize = 4;
 
-/// Returns y + h Σ wⱼ kⱼ over the first `count` slopes.
+/// Returns y + h Σ wⱼ kⱼ, where the sum contains the first `count` slopes kⱼ.
 #[inline(always)]
 fn combine<R: Real, const N: usize, const W: usize>(
     y: &[R; N],
@@ -212,7 +216,7 @@ fn combine<R: Real, const N: usize, const W: usize>(
     out
 }
 
-/// Adds h Σ wⱼ kⱼ to `SIZE` components, starting with the component `first`.
+/// Adds h Σ wⱼ kⱼ to `SIZE` components of `y`, starting with the component `first`.
 #[inline(always)]
 fn add<R: Real, const N: usize, const W: usize, const SIZE: usize>(
     y: &mut [R; N],

@@ -1,66 +1,73 @@
-//! Right-hand sides that jump where a switching function changes sign.
+//! Integration of equations whose right-hand side jumps where a switching function changes sign.
 //!
-//! The equations are integrated on one side of the surface at a time. The side is constant within a step, so every
-//! step has a smooth right-hand side.
+//! The switching function is zero on the switching surface. The equations are integrated on one side of this
+//! surface at a time. The side is constant within a step, so every step has a smooth right-hand side.
 //!
-//! If an accepted step ends on the other side, the crossing is located on a cubic through the function's values and
-//! rates at both ends. The step is then repeated up to the crossing. If it ends more than a thousandth of an ordinary
-//! step from the surface, it is repeated with the size from Newton's step. On the surface, the side is changed and
-//! the first slope is computed again.
+//! If an accepted step ends on the opposite side of the surface, the integrator computes the crossing from a
+//! cubic polynomial. The polynomial has the values and the rates of the switching function at the two ends of
+//! the step. The step is then repeated up to the crossing. The repeated step may end more than a thousandth
+//! of an ordinary step away from the surface. In this case, Newton's method corrects the step size, and the
+//! step is repeated again. When a step ends on the surface, the integrator changes the side and computes the
+//! first slope of the next step again.
 //!
-//! Two crossings within one step leave the function's sign unchanged. The function then approaches zero at
-//! the beginning of the step and departs from it at the end. If the cubic also has a minimum on the other side, the
-//! step is repeated up to this minimum, beyond the first crossing.
+//! Two crossings within one step do not change the sign of the switching function at the end of the step. The
+//! switching function then approaches zero at the beginning of the step and departs from zero at the end. The
+//! cubic polynomial may also have a minimum on the opposite side. In this case, the step is repeated up to
+//! this minimum, which lies after the first crossing.
 
 use super::step::Step;
 use super::variation::{Varied, crossed, slopes_outlined};
 use super::{Ode, STRETCH, input, slope};
 use crate::num::{Lanes, Real};
 
-/// A step lands on the surface if it ends within this fraction of an ordinary step. The cubic's error is usually far
-/// smaller.
+/// Largest distance from the surface at which a step counts as a step that ends on the surface, as a fraction
+/// of an ordinary step. The error of the cubic polynomial is usually far smaller than this distance.
 const LANDED: f64 = 1e-3;
 
-/// Largest number of corrections of a step that ends beside the surface.
+/// Largest number of corrections of the step size for a step that ends near the surface, but not on the
+/// surface.
 const CORRECTIONS: f64 = 3.0;
 
-/// Fraction within which a step also counts as landed, if corrections bring it no nearer.
+/// Largest distance from the surface, as a fraction of an ordinary step, at which a step is accepted after
+/// the last correction of its size.
 const REACHED: f64 = 1e-2;
 
 /// Largest distance from the surface, as a fraction of an ordinary step, at which the step size is corrected.
 const NEAR: f64 = 0.1;
 
-/// Smallest fraction of a step at which a minimum of the function indicates two crossings within the step.
+/// Smallest fraction of a step at which a minimum of the switching function indicates two crossings within
+/// the step.
 const EARLIEST: f64 = 1e-2;
 
-/// Position of a run relative to its switching surface, from step to step.
+/// Values about a run and its switching surface that are kept from one step to the next.
 #[derive(Clone, Copy)]
 pub(super) struct Switching<R: Lanes> {
     /// Side of the surface on which the right-hand side is evaluated: +1 or −1.
     pub(super) side: R,
-    /// Switching function and its rate at the beginning of the step.
+    /// Value and rate of the switching function at the beginning of the step.
     pub(super) value: [R; 2],
     /// True if the step is being repeated up to a crossing.
     pub(super) heading: R::Mask,
-    /// Number of corrections of the size of this step.
+    /// Number of times that the size of the current step has been corrected.
     pub(super) corrections: R,
-    /// Step size after the crossing.
+    /// Step size with which the run continues after the crossing.
     pub(super) resume: R,
 }
 
-/// Decision on an attempted step near the surface.
+/// Decision on an attempted step near the switching surface.
 #[derive(Clone, Copy)]
 pub(super) struct Crossing<R: Lanes> {
     /// True if the step is accepted.
     pub(super) accepted: R::Mask,
     /// Next step size.
     pub(super) h: R,
-    /// True if the step ends on the surface, where the side changes and the first slope must be computed again.
+    /// True if the step ends on the switching surface. The side then changes, and the first slope of the next
+    /// step must be computed again.
     pub(super) arrived: R::Mask,
 }
 
 impl<R: Lanes> Switching<R> {
-    /// Returns the memory of a run before its side is determined.
+    /// Returns the values of a run before the integrator has determined the side of the run.
     #[inline(always)]
     pub(super) fn new(like: R) -> Switching<R> {
         let zero = like.lit(0.0);
@@ -68,7 +75,8 @@ impl<R: Lanes> Switching<R> {
         Switching { side: like.lit(1.0), value: [zero; 2], heading: none, corrections: zero, resume: zero }
     }
 
-    /// Returns the memory at the beginning of a run. On the surface, the side is the one that the motion enters.
+    /// Returns the values at the beginning of a run. If a run begins on the switching surface, its side is
+    /// the side that the motion enters.
     #[inline(always)]
     pub(super) fn begin<O: Ode<N>, const N: usize>(ode: &O, c: &O::Constants<R>, y: &[R; N]) -> Switching<R> {
         let mut memory = Switching::new(y[0]);
@@ -82,7 +90,8 @@ impl<R: Lanes> Switching<R> {
         memory
     }
 
-    /// Returns the decision on a step. `accepted` is the result of the error control, `h_next` its next step size.
+    /// Returns the decision on a step. `accepted` is the decision of the step-size controller, and `h_next`
+    /// is the next step size that the controller proposes.
     #[inline(always)]
     pub(super) fn decide<O: Ode<N>, const N: usize>(
         &mut self,
@@ -144,22 +153,25 @@ impl<R: Lanes> Switching<R> {
     }
 }
 
-/// Returns the factor by which a step may be stretched to end with its span: 1 if a crossing is its target.
+/// Returns the largest factor by which a step may be lengthened so that it ends at the end of the time span.
+/// The factor is 1 if the step is repeated up to a crossing.
 #[inline(always)]
 pub(super) fn landing_stretch<R: Lanes>(switching: &Switching<R>) -> R {
     let one = switching.side.lit(1.0);
     R::select(switching.heading, one, one.lit(STRETCH))
 }
 
-/// Returns the size with which a step of size `h` ends on the surface, by Newton's step.
+/// Returns the step size with which a step ends on the switching surface, by one Newton step from the step
+/// size `h`.
 ///
-/// The arguments are the switching function and its rate at the end of the step.
+/// `value` and `rate` are the switching function and its rate at the end of the step with the size `h`.
 #[inline(always)]
 pub(super) fn landing_size<R: Real>(h: R, [value, rate]: [R; 2]) -> R {
     h - value / rate
 }
 
-/// Returns state and first slope of a run that has arrived at its surface at time `t` (s), on its new `side`.
+/// Returns the state and the first slope of a run that has reached its switching surface at time `t` (s).
+/// `side` is the new side of the run.
 #[inline(always)]
 pub(super) fn cross<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     ode: &O,
@@ -173,7 +185,7 @@ pub(super) fn cross<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     [y, slopes_outlined(ode, c, &u, side, &y)]
 }
 
-/// The switching function over the fraction θ of a step: g₀ + d₀ θ + b θ² + a θ³.
+/// Cubic polynomial for the switching function at the fraction θ of a step: g₀ + d₀ θ + b θ² + a θ³.
 struct Cubic<R> {
     end: R,
     value: R,
@@ -183,7 +195,7 @@ struct Cubic<R> {
 }
 
 impl<R: Real> Cubic<R> {
-    /// Returns the cubic with values and slopes `[g, d]` at 0 and 1.
+    /// Returns the cubic polynomial with the given values and slopes `[g, d]` at θ = 0 and θ = 1.
     #[inline(always)]
     fn new([g0, d0]: [R; 2], [g1, d1]: [R; 2]) -> Cubic<R> {
         let a = (g0 - g1) * 2.0 + d0 + d1;
@@ -196,17 +208,18 @@ impl<R: Real> Cubic<R> {
         theta.mul_add(theta.mul_add(theta.mul_add(self.a, self.b), self.slope), self.value)
     }
 
-    /// Returns the fraction of the step at which the cubic, times `side`, has its minimum; NaN if there is none.
+    /// Returns the fraction of the step at which the cubic polynomial, times `side`, has its minimum. The
+    /// result is NaN if the polynomial has no minimum.
     #[inline(always)]
     fn minimum(&self, side: R) -> R {
         let Cubic { slope, a, b, .. } = self;
         -(*slope) / (*b + side * (*b * *b - *a * *slope * 3.0).sqrt())
     }
 
-    /// Returns the zero of a cubic that leaves `side`.
+    /// Returns the zero of a cubic polynomial that begins on `side` and reaches the opposite side.
     ///
-    /// Newton's iteration begins on the chord. If the cubic begins at zero or departs from zero first, it begins at
-    /// that end.
+    /// Newton's iteration usually begins at the zero of a chord of the polynomial. If the polynomial departs
+    /// from zero at the beginning, Newton's iteration begins at the end of the step.
     #[inline(always)]
     fn root(&self, side: R) -> R {
         let zero = side.lit(0.0);

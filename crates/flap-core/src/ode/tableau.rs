@@ -1,15 +1,17 @@
 //! Coefficients of the Dormand-Prince method of order 5(4).
 //!
-//! Dormand and Prince (1980). Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, 2nd ed., Table
-//! II.5.2. Dense output as in section II.6 and the code DOPRI5.
+//! The sources are Dormand and Prince (1980), and Table II.5.2 of Hairer, Nørsett and Wanner, *Solving
+//! Ordinary Differential Equations I*, 2nd ed. Section II.6 of this book and the code DOPRI5 contain the
+//! coefficients of the dense output.
 
-/// Number of stages. The last stage is the first stage of the next step.
+/// Number of stages. The last stage of a step is also the first stage of the next step.
 pub const STAGES: usize = 7;
 
 /// Times of the stages, as fractions of the step.
 pub const C: [f64; STAGES] = [0.0, 1.0 / 5.0, 3.0 / 10.0, 4.0 / 5.0, 8.0 / 9.0, 1.0, 1.0];
 
-/// Weights of earlier slopes in each stage: row `s` contains the first `s` weights.
+/// Weights of the slopes of earlier stages in each stage. Row `s` contains the weights for stage `s`, counted
+/// from 0, and only its first `s` entries are used.
 #[rustfmt::skip]
 pub const A: [[f64; 6]; STAGES] = [
     [0.0, 0.0, 0.0, 0.0, 0.0, 0.0],

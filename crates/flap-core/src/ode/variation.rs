@@ -1,27 +1,28 @@
-//! Motions with their responses to small changes of the initial state.
+//! Integration of motions together with their responses to small changes of the initial state.
 //!
-//! Step sizes depend on the errors of states and responses. At a kink of a force its derivative jumps, and responses
-//! have larger errors than states.
+//! The step sizes depend on the errors of the states and of the responses. At a kink of a force, the
+//! derivative of the force jumps, and the responses have larger errors than the states.
 //!
-//! Slopes of responses are forward differences of the right-hand side, with changes of 1e-7 of the states' scales.
-//! Their errors are about 1e-7 of the second derivative, plus rounding of about 1e-9. At a jump of the right-hand
-//! side the responses jump too, because a changed motion reaches the surface earlier or later.
+//! The slopes of the responses are forward differences of the right-hand side, with changes of about 1e-7 of
+//! the states' typical sizes. The errors of these slopes are about 1e-7 times the second derivative, plus
+//! rounding errors of about 1e-9. At a jump of the right-hand side, the responses jump, too, because a
+//! changed motion reaches the switching surface earlier or later.
 
 use super::{Ode, slope};
 use crate::num::{Lanes, Real};
 
-/// Size of the changes, relative to [`Start::change`](super::Start::change). The neglected squares and the amplified
-/// rounding are both far below any tolerance.
+/// Size of the changes in the finite differences, relative to [`Start::change`](super::Start::change). The
+/// errors of the finite differences, including rounding errors, are far below any tolerance.
 const SMALL: f64 = 1e-7;
 
-/// Scale of responses, relative to the change that they respond to.
+/// Typical size of a response, divided by the change of the initial state that causes the response.
 ///
-/// By default the absolute tolerance is a hundredth of the relative one. With this factor, errors of responses are
-/// relative to the change, also for responses near zero.
+/// By default, the absolute tolerance is a hundredth of the relative tolerance. With this factor, a response
+/// near zero has an absolute tolerance of the relative tolerance times the change of the initial state.
 pub(super) const RESPONSE_SCALE: f64 = 100.0;
 
-/// A quantity of a motion and the same quantity of its responses to D changes of its initial state. D is the number
-/// of states, or 0.
+/// A quantity of a motion, and the same quantity of the motion's responses to D changes of the initial state.
+/// D is the number of components of the state, or 0 for a motion without responses.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Varied<T, const D: usize> {
     pub(super) motion: T,
@@ -36,7 +37,7 @@ impl<T> Varied<T, 0> {
     }
 }
 
-/// Returns [`Ode::plain_rhs`] if `PLAIN`, otherwise [`Ode::rhs`].
+/// Returns [`Ode::plain_rhs`] if `PLAIN` is true, and [`Ode::rhs`] otherwise.
 #[inline(always)]
 fn rhs<O: Ode<N>, R: Real, const PLAIN: bool, const N: usize>(
     ode: &O,
@@ -48,7 +49,8 @@ fn rhs<O: Ode<N>, R: Real, const PLAIN: bool, const N: usize>(
     if PLAIN { ode.plain_rhs(c, u, side, y) } else { ode.rhs(c, u, side, y) }
 }
 
-/// Returns the derivatives of the state and of its responses, as in [`Ode::plain_rhs`] if `PLAIN`, otherwise as in [`Ode::rhs`].
+/// Returns the derivatives of the state and of its responses. [`Ode::plain_rhs`] computes these derivatives
+/// if `PLAIN` is true, and [`Ode::rhs`] otherwise.
 #[inline(always)]
 pub(super) fn slopes<O: Ode<N>, R: Real, const PLAIN: bool, const N: usize, const D: usize>(
     ode: &O,
@@ -77,7 +79,7 @@ pub(super) fn slopes<O: Ode<N>, R: Real, const PLAIN: bool, const N: usize, cons
     out
 }
 
-/// [`slopes`] kept out of line, for the reason given at [`slope`].
+/// Calls [`slopes`] without inlining, for the reason given at [`slope`].
 #[inline(always)]
 pub(super) fn slopes_outlined<O: Ode<N>, R: Real, const N: usize, const D: usize>(
     ode: &O,
@@ -100,8 +102,8 @@ pub(super) fn slopes_outlined<O: Ode<N>, R: Real, const N: usize, const D: usize
 
 /// Returns the state and its responses right after the motion has crossed the switching surface to this `side`.
 ///
-/// A change w that changes the switching function by dg moves the crossing in time by −dg/ġ. In between, the changed
-/// motion has the slope of the other side:
+/// A change w of the state changes the switching function by dg, and therefore the time of the crossing by
+/// −dg/ġ. Between the two times, the changed motion has the slope of the opposite side:
 ///
 /// ```text
 /// w⁺ = w + (f⁺ − f⁻) dg/ġ⁻

@@ -36,20 +36,20 @@ pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Paramet
 
 /// Declares a model's parameter struct and its table.
 ///
-/// Each line consists of the documentation, the name and the type of a field, followed by SI unit, symbol and
-/// [`Kind`](crate::parameter::Kind). The type of a field is one of these types:
+/// Each line consists of the documentation, the name and the type of a field, and then the SI unit, the
+/// symbol and the [`Kind`](crate::parameter::Kind). The type of a field is one of these types:
 ///
 /// - `f64`
-/// - `Option<f64>` for a number that follows other parameters until it is set
+/// - `Option<f64>`, for a number that flap computes from other parameters if the user does not set the number
 /// - an enum declared by [`choice!`](crate::choice)
-/// - another struct declared by `parameters!`, with `(flatten)` in place of unit, symbol and kind: the rows of this
-///   struct are inserted into the table
+/// - another struct that `parameters!` declares, with `(flatten)` instead of unit, symbol and kind. The macro
+///   inserts the rows of this struct into the table
 ///
-/// A name in brackets before a field begins a group of parameters. After the kind, other fields of
-/// [`Parameter`](crate::parameter::Parameter) may follow, such as `default: 0.0`.
+/// A name in brackets before a field begins a group of parameters. After the kind of a field, you can set
+/// more fields of [`Parameter`](crate::parameter::Parameter), for example `default: 0.0`.
 ///
-/// If each line ends with a value, declare a function below the struct, for example `pub fn published() -> Params;`.
-/// The function returns the values.
+/// If each line ends with a value, declare a function below the struct, for example `pub fn published() ->
+/// Params;`. This function returns the struct with the values.
 ///
 /// The macro adds `TABLE`, `from_values` and `to_values` to the struct. The rows of `TABLE` have the order of the
 /// fields.
@@ -114,7 +114,7 @@ macro_rules! parameters {
         }
 
         impl $Name {
-            /// Parameter table, in the order of the fields.
+            /// Parameter table, with its rows in the order of the fields.
             pub const TABLE: &'static [$crate::parameter::Parameter<'static>] = {
                 const TABLES: &[&[$crate::parameter::Parameter<'static>]] =
                     &[$($crate::parameters!(@table $type, $field, [$($group)?], [$($doc),+], $($row)+),)*];

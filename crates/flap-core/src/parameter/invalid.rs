@@ -3,7 +3,8 @@
 use super::table::Range;
 use crate::num::PerLane;
 
-/// Impossible parameters, an impossible request, or a motion that cannot be computed. Contains the reason.
+/// Error for impossible parameters, for an impossible request, or for a motion that cannot be computed. The
+/// error contains the reason as a text.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{0}")]
 pub struct Invalid(String);

@@ -5,7 +5,8 @@
 //!
 //! - a number in SI units
 //! - the index of an option, for a choice
-//! - NaN, for a parameter that is not set and follows other parameters (see [`Kind::Following`])
+//! - NaN, for a parameter that is not set, so that flap computes its value from other parameters (see
+//!   [`Kind::Following`])
 //!
 //! Values that a user sets are never NaN, so NaN always means that the parameter is not set.
 

@@ -5,29 +5,34 @@
 pub struct Parameter<'a> {
     /// Name of the parameter in grid files, on the command line and in Python.
     pub name: &'a str,
-    /// SI unit in the form of grid files (`"N*m/rad"`), empty for pure numbers and choices.
+    /// SI unit in the notation of grid files, such as `"N*m/rad"`. The text is empty for numbers without a
+    /// unit and for choices.
     pub unit: &'static str,
-    /// Symbol of the parameter in the paper of the model, empty if the paper has no symbol.
+    /// Symbol of the parameter in the paper of the model. The text is empty if the paper has no symbol for
+    /// the parameter.
     pub symbol: &'static str,
     /// Allowed values.
     pub kind: Kind<'a>,
     /// Description of the parameter in one line, with the source of the value.
     pub doc: &'a str,
-    /// Group of parameters: a part of the robot, such as `hinge`. The group is a heading in lists of parameters.
+    /// Name of the parameter's group, which is a part of the robot, such as `hinge`. In lists of parameters,
+    /// the name of the group is a heading.
     pub group: &'a str,
-    /// Value of the parameter if no preset sets the parameter; NaN if the parameter has no default.
+    /// Value of the parameter if no preset sets the parameter. The value is NaN if the parameter has no
+    /// default.
     pub default: f64,
     /// True if the published value was fitted to measurements of one vehicle. The fitted value need not be valid for
     /// another vehicle.
     pub is_fitted: bool,
-    /// Names and exponents of parameters whose change usually changes this parameter, too. For example, the inertia of
-    /// a wing grows with the fourth power of the wing length if shape and thickness stay the same. Models do not apply
-    /// these exponents, but `flap check` reports them.
+    /// Names of other parameters, each with an exponent. A change of one of these parameters usually changes
+    /// this parameter, too. For example, the inertia of a wing grows with the fourth power of the wing length
+    /// if shape and thickness stay the same. Models do not apply these exponents, but `flap check` reports
+    /// them.
     pub scales_with: &'static [(&'static str, f64)],
 }
 
 impl<'a> Parameter<'a> {
-    /// Returns a parameter without group and default, whose value is not fitted.
+    /// Returns a parameter that has no group and no default. `is_fitted` of this parameter is false.
     pub const fn new(
         name: &'a str,
         unit: &'static str,
@@ -59,8 +64,8 @@ impl<'a> Parameter<'a> {
 pub enum Kind<'a> {
     /// A number in SI units.
     Number(Range),
-    /// A number whose value follows from other parameters if the parameter is not set. The text describes this value
-    /// (`"half of actuator_length"`).
+    /// A number that flap computes from other parameters if the parameter is not set. The text describes the
+    /// computed value, for example `"half of actuator_length"`.
     Following(Range, &'static str),
     /// One of several named options: an interpretation of the paper, or a modelling choice.
     Choice(&'a [&'a str]),

@@ -5,21 +5,22 @@ use super::schedule::run;
 use crate::num::{Backend, Kernel, Simd};
 use crate::ode::{Ending, Ode, Outcome, Start, Tolerances};
 
-/// Result of a run.
+/// Result of the integration of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Integrated<T, const N: usize> {
     /// Final state of the run, or the last state before a failure.
     pub y: [f64; N],
-    /// Totals of the observer.
+    /// Sums that the observer has computed during the run.
     pub totals: T,
-    /// Ending and cost.
+    /// Ending and cost of the run.
     pub outcome: Outcome,
 }
 
-/// Integrates one run from each initial state in `starts` over `spans` spans of time, in the SIMD lanes of `backend`.
+/// Integrates one run from each initial state in `starts` over `spans` time spans, in the SIMD lanes of
+/// `backend`.
 ///
-/// The results have the order of `starts`. `observer` sums up quantities during the runs. If you do not need sums, use
-/// [`Unobserved`](super::Unobserved). `spans` is at least 1.
+/// The results have the order of `starts`. `observer` sums up quantities during the runs. If you do not need
+/// sums, use [`Unobserved`](super::Unobserved). `spans` must be at least 1.
 ///
 /// The example integrates the decay x' = −k x with 1,000 rates k (1/s), from x = 1 over one second.
 ///
@@ -87,7 +88,7 @@ struct List<'a, C, T, const N: usize> {
     starts: &'a [Start<C, N>],
     spans: u32,
     begun: usize,
-    /// Index of the run in each lane, and the number of its remaining spans.
+    /// Index of the run in each lane, and the number of time spans that the run still needs.
     lanes: [(usize, u32); MOST_LANES],
     ends: Vec<Option<Integrated<T, N>>>,
 }

@@ -10,7 +10,8 @@ use crate::ode::switch::{Crossing, Switching, cross, landing_stretch};
 use crate::ode::variation::{RESPONSE_SCALE, Varied};
 use crate::ode::{Ending, MIN_STEP, Ode, Start, Tolerances};
 
-/// Numbers of the runs in all lanes, with the responses to D changes of the initial state.
+/// States and constants of the runs in all lanes, and the responses of each run to D changes of its initial
+/// state.
 pub(super) struct LaneRuns<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
     token: R::Token,
     tolerances: Tolerances,
@@ -24,7 +25,7 @@ pub(super) struct LaneRuns<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usiz
     atol_of_responses: [R; N],
     t: R,
     h: R,
-    /// Step size at the beginning of the current span.
+    /// Step size at the beginning of the current time span.
     h_begin: R,
     step: Step<R, N>,
     responses: [Step<R, N>; D],
@@ -35,16 +36,16 @@ pub(super) struct LaneRuns<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usiz
     error: R,
 }
 
-/// Lanes in which the step ended a span or failed, with one bit for each lane.
+/// Lanes in which a time span ended or a run failed in the last step. Each lane is one bit.
 pub(super) struct Events {
-    /// Lanes at the end of their span.
+    /// Lanes in which the run is at the end of a time span.
     pub(super) landed: u64,
-    /// Lanes with a failed run.
+    /// Lanes in which the run has failed.
     pub(super) failed: u64,
 }
 
 impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> LaneRuns<R, O, V, N, D> {
-    /// Returns the same run in each lane, so that the numbers in idle lanes are finite.
+    /// Returns lanes that all contain the same run. The numbers in idle lanes are therefore finite.
     #[inline(always)]
     pub(super) fn new(
         token: R::Token,
@@ -104,8 +105,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         }
     }
 
-    /// Computes the first slope and the step size in the `fresh` lanes, which have one bit each. The other lanes do not
-    /// change.
+    /// Computes the first slope and the first step size in the lanes whose bits are set in `fresh`. All other
+    /// lanes do not change.
     #[inline(always)]
     pub(super) fn begin(&mut self, ode: &O, fresh: u64) {
         let fresh = R::mask(self.token, fresh);
@@ -145,7 +146,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         }
     }
 
-    /// Prepares a lane for the next span.
+    /// Prepares the run in a lane for the next time span.
     pub(super) fn begin_span(&mut self, lane: usize) {
         let h = span_step(self.h_begin.lane(lane), self.h.lane(lane));
         let memory = Memory::new(0.0);
@@ -200,7 +201,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         Events { landed, failed: exhausted | stuck }
     }
 
-    /// Computes the first slope again in lanes whose state has arrived at the switching surface.
+    /// Computes the first slope again in the lanes in which the run has reached the switching surface.
     #[inline(always)]
     fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
         let [crossed, slopes] = cross(ode, &self.constants, self.t, self.switching.side, &self.begins());
@@ -229,7 +230,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         begins
     }
 
-    /// Returns the mean square of the errors of the step, divided by their tolerances, as in [`crate::ode::norm`].
+    /// Returns the mean square of the errors of the step, each divided by its tolerance, as in
+    /// [`crate::ode::norm`].
     #[inline(always)]
     fn error_squared(&self) -> R {
         let Step { y: [y, .., y_new], error, .. } = &self.step;
@@ -255,7 +257,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         self.totals.get(lane)
     }
 
-    /// Returns the kind of failure of a run that failed in its last step.
+    /// Returns the ending of the run in one lane, if the run failed in its last step.
     pub(super) fn failure(&self, lane: usize) -> Ending {
         Ending::of_failure(self.error.lane(lane))
     }
@@ -271,7 +273,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
     }
 }
 
-/// Returns the absolute tolerances of the responses to changes of the given sizes.
+/// Returns the absolute tolerances of the responses to changes of the initial state. `change` contains the
+/// sizes of the changes.
 fn of_responses<const N: usize>(
     tolerances: &Tolerances,
     tolerance_factor: f64,

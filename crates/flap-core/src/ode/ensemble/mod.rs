@@ -3,8 +3,8 @@
 //! Every lane has its own time, step size, error control and constants. If the run in a lane ends or fails, the lane
 //! takes the next run from the queue, while the other lanes continue. All lanes are used until the queue is empty.
 //!
-//! No operation mixes lanes. The results of a run do not depend on other runs, and equal the results of
-//! [`super::solve`] to the last bit.
+//! No operation combines numbers of different lanes. The results of a run therefore do not depend on other
+//! runs. The results equal the results of [`super::solve`] to the last bit.
 
 mod integrate;
 mod lane_runs;

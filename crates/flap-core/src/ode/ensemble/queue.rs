@@ -1,4 +1,4 @@
-//! Source of the runs of an ensemble, and the sums that an observer computes during the runs.
+//! Traits for the source of the runs of an ensemble, and for an observer that computes sums during the runs.
 
 use crate::num::{Lanes, PerLane};
 use crate::ode::step::Attempt;
@@ -7,20 +7,20 @@ use crate::ode::{Ode, Outcome, Start};
 /// Largest number of lanes of any backend: the lanes of two AVX-512 registers.
 pub const MOST_LANES: usize = 16;
 
-/// Initial state of a run that replaces the run in the same lane, with the same constants.
+/// Start of a run that replaces the previous run in a lane and has the same constants as the previous run.
 pub type Restart<const N: usize> = Start<(), N>;
 
-/// A run at the end of a span, or at its failure.
+/// A run at the end of a time span, or a run that has failed.
 #[derive(Clone, Copy, Debug)]
 pub struct SpanEnd<'a, T, const N: usize> {
     /// State.
     pub y: &'a [f64; N],
-    /// Totals of the observer since the start of the run.
+    /// Sums that the observer has computed since the start of the run.
     pub totals: &'a T,
-    /// Responses of the state to a change of each component of the initial state by [`Start::change`]; empty in
-    /// [`run`](super::run).
+    /// Responses of the state to a change of each component of the initial state by [`Start::change`]. The
+    /// function [`run`](super::run) computes no responses, so the slice is empty.
     pub responses: &'a [[f64; N]],
-    /// Ending of the run, and its cost since the start. At the end of a span, the ending is
+    /// Ending of the run, and its cost since the start. At the end of a time span, the ending is
     /// [`Stopped`](crate::ode::Ending::Stopped).
     pub outcome: Outcome,
 }
@@ -28,26 +28,29 @@ pub struct SpanEnd<'a, T, const N: usize> {
 /// Next task of a run that stays in its lane.
 #[derive(Clone, Copy, Debug)]
 pub enum Next<const N: usize> {
-    /// Integrates the next span, from the state at the end of the last span. After a failure, this task is not allowed.
+    /// The run continues with the next time span, from the state at the end of the last time span. For a
+    /// failed run, this task is not allowed.
     Span,
-    /// Integrates a span from another state or with other tolerances. Totals and costs begin at zero again.
+    /// The run is replaced by a run with a different initial state or different tolerances. Sums and costs
+    /// begin at zero again.
     Restart(Restart<N>),
 }
 
-/// Source of runs and receiver of their results. Lanes are numbered from zero, below [`MOST_LANES`].
+/// Object that provides the runs of an ensemble and receives the results of the runs. The numbers of the
+/// lanes begin at 0 and are less than [`MOST_LANES`].
 pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
-    /// Returns the initial state of the next run, which is loaded into the free lane `lane`. The result is `None` if no
-    /// run is available at present.
+    /// Returns the start of the next run, which flap loads into the free lane `lane`. The result is `None` if
+    /// no run is available at present.
     ///
     /// If `idle` is true, no lane has a run. In this case the function may wait for a run, and the result `None` ends
     /// the ensemble.
     fn next(&mut self, lane: usize, idle: bool) -> Option<Start<O::Constants<f64>, N>>;
 
-    /// Receives the run of a lane at the end of a span, or after a failure. Returns the next task of the run, or `None`
-    /// to remove the run from the lane.
+    /// Receives the run in a lane at the end of a time span, or after a failure of the run. Returns the next
+    /// task of the run, or `None` to remove the run from the lane.
     fn ended(&mut self, lane: usize, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<Next<N>>;
 
-    /// Returns true if the ensemble must end at once. Runs in lanes are then discarded, see
+    /// Returns true if the ensemble must end at once. flap then discards the runs in all lanes, see
     /// [`Interrupt`](crate::ode::Interrupt).
     fn interrupted(&self) -> bool {
         false
@@ -56,7 +59,7 @@ pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
 
 /// Observer that computes sums during the run in each lane.
 pub trait Observer<O: Ode<N>, const N: usize> {
-    /// Sums.
+    /// Sums that the observer computes in each lane.
     type Totals<R: Lanes>: PerLane<R, One = Self::Totals<f64>>;
 
     /// Returns the values of the sums before the first step.
@@ -72,7 +75,7 @@ pub trait Observer<O: Ode<N>, const N: usize> {
     );
 }
 
-/// Observer that computes nothing.
+/// Observer that computes no sums.
 #[derive(Clone, Copy, Debug)]
 pub struct Unobserved;
 

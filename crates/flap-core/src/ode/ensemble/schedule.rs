@@ -1,5 +1,5 @@
-//! Schedule of an ensemble, which loads runs from the queue into lanes, integrates the runs, and passes the results to
-//! the queue.
+//! The schedule of an ensemble loads runs from the queue into lanes, integrates the runs, and passes the
+//! results to the queue.
 
 use core::ops::AddAssign;
 
@@ -8,12 +8,13 @@ use super::queue::{MOST_LANES, Next, Observer, Queue, SpanEnd};
 use crate::num::{Lanes, Simd, Vector};
 use crate::ode::{Ending, INTERRUPT_STEPS, Ode, Outcome, Start, Tolerances};
 
-/// Use of the lanes: how many attempted steps belong to a run.
+/// Use of the lanes of an ensemble: the number of steps that were attempted for runs, compared with the
+/// number in all lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Occupancy {
     /// Number of steps attempted in lanes that have a run.
     pub used: u64,
-    /// Number of steps attempted in all lanes.
+    /// Number of steps attempted in all lanes, including lanes without a run.
     pub room: u64,
 }
 
@@ -35,7 +36,8 @@ pub fn run<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     run_varied::<_, _, _, N, 0>(simd, ode, observer, tolerances, queue)
 }
 
-/// Integrates as [`run`], and computes the responses of the states to changes of the initial state.
+/// Integrates the runs of `queue` as [`run`] does, and also computes the responses of the states to changes
+/// of the initial state.
 pub(crate) fn run_with_responses<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     simd: S,
     ode: &O,
@@ -46,8 +48,9 @@ pub(crate) fn run_with_responses<S: Simd, O: Ode<N>, V: Observer<O, N>, const N:
     run_varied::<_, _, _, N, N>(simd, ode, observer, tolerances, queue)
 }
 
-/// Integrates as [`run`], and computes the responses to D changes. Because the type of `queue` is not generic, the
-/// function is compiled once for each observer.
+/// Integrates the runs of `queue` as [`run`] does, and also computes the responses to D changes of the
+/// initial state. Because the type of `queue` is not generic, the function is compiled once for each
+/// observer.
 fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize>(
     simd: S,
     ode: &O,
@@ -71,7 +74,7 @@ struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D:
     runs: LaneRuns<R, O, V, N, D>,
     /// Value of `steps` at the beginning of the run in each lane.
     began: [u64; MOST_LANES],
-    /// Number of steps that all lanes attempted together.
+    /// Number of attempted steps. In each of these steps, all lanes advance together.
     steps: u64,
     /// Number of steps of all runs that have ended.
     used: u64,
@@ -116,7 +119,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
         self.fresh |= 1 << lane;
     }
 
-    /// Integrates until the queue is empty.
+    /// Integrates the runs until the queue is empty or interrupted.
     #[inline(always)]
     fn drive(mut self, simd: impl Simd, ode: &O, observer: &V, queue: &mut dyn Queue<O, V, N>) -> Occupancy {
         loop {
@@ -137,7 +140,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
         }
     }
 
-    /// Attempts steps in each lane until a span ends, a run fails, or a few milliseconds have passed.
+    /// Attempts steps in all lanes until a time span ends, a run fails, or a few milliseconds have passed.
     #[inline(always)]
     fn advance(&mut self, ode: &O, observer: &V) -> Events {
         let mut left = INTERRUPT_STEPS;
@@ -163,7 +166,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
         }
     }
 
-    /// Passes failed runs, and runs at the end of a span, to the queue.
+    /// Passes failed runs, and runs at the end of a time span, to the queue.
     fn settle(&mut self, events: &Events, observer: &V, queue: &mut dyn Queue<O, V, N>) {
         for lane in 0..R::LANES {
             let bit = 1 << lane;
