@@ -222,7 +222,7 @@ impl<R: Real> LinkInertias<R> {
 }
 
 /// Returns the root of `f` between the two ends of `bracket`, with an error of the order of rounding errors.
-/// The result is `None` if `f` has the same sign at both ends.
+/// The result is `None` if `f` has the same sign at both ends of `bracket`.
 ///
 /// The method is regula falsi with the Illinois rule.
 fn root(f: impl Fn(f64) -> f64, bracket: [f64; 2]) -> Option<f64> {

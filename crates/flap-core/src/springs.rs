@@ -8,9 +8,9 @@ use crate::parameter::Range::{Any, NonNegative, Positive};
 
 /// Returns the viscous damping γ k/ω that causes the same loss as the loss factor γ of a spring.
 ///
-/// Here k is the `stiffness` of the spring, and ω is the angular frequency `rate` (rad/s). The two losses are
-/// equal for the first harmonic of a periodic motion. Lynch, Gau, Sponberg and Gravish (2021) measured loss
-/// factors of insect thoraxes and robot hinges.
+/// Here k is the `stiffness` of the spring, and ω is the angular frequency `rate` (rad/s). The damping and
+/// the loss factor cause equal losses for the first harmonic of a periodic motion. Lynch, Gau, Sponberg and
+/// Gravish (2021) measured loss factors of insect thoraxes and robot hinges.
 pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) -> f64 {
     loss_factor * stiffness / rate
 }
@@ -18,11 +18,11 @@ pub(crate) fn structural_damping(loss_factor: f64, stiffness: f64, rate: f64) ->
 crate::parameters! {
     /// Parameters of the wing hinge: loss factor, cubic stiffness, stop and dimensions.
     pub struct HingeParameters {
-        /// Loss factor of the wing hinge. It adds a viscous damping, which is the loss factor times the
+        /// Loss factor of the wing hinge. The loss factor adds a viscous damping: the loss factor times the
         /// stiffness, divided by the angular drive frequency.
         hinge_loss_factor: f64 = ("", "gamma_h", Number(NonNegative), default: 0.0),
-        /// Cubic stiffness of the wing hinge. It adds a moment against the pitch: hinge_stiffening times the
-        /// third power of the pitch.
+        /// Cubic stiffness of the wing hinge. The hinge exerts an additional moment against the pitch:
+        /// hinge_stiffening times the third power of the pitch.
         hinge_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0),
         /// Magnitude of the pitch at which the stop of the wing hinge begins to act. The stop acts in both
         /// directions of the pitch.

@@ -66,7 +66,7 @@ crate::per_lane! {
 }
 
 impl Harmonics<f64> {
-    /// Returns the coefficients of the additional terms, given the parameters of a point.
+    /// Returns the coefficients for the parameters of a point.
     pub(crate) fn of(p: &HarmonicParameters) -> Harmonics<f64> {
         Harmonics {
             drag: [p.drag_term_0, p.drag_term_1],

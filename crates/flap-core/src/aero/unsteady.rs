@@ -103,9 +103,9 @@ crate::per_lane! {
     /// edge.
     ///
     /// The force of the circulation, ρ u_C κ c² ω Δr, acts at a quarter of the chord. As in potential flow,
-    /// u_C is the component of the section's velocity along the chord. The formula of Sane and Dickinson
-    /// contains the speed of the section instead of u_C. At small attack angles, the speed and u_C are almost
-    /// equal.
+    /// this formula contains the component u_C of the section's velocity along the chord. The formula of Sane
+    /// and Dickinson contains the speed of the section instead of u_C. At small attack angles, the speed and
+    /// u_C are almost equal.
     pub struct Circulation<R> {
         /// Factors of the force: κρ ∫ c² r^m dr for m = 0, 1 and 2 (kg/m, kg, kg·m).
         pub force: [R; 3],

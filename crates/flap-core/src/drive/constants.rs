@@ -48,13 +48,15 @@ impl<R> From<[R; 3]> for Wave<R> {
 crate::per_lane! {
     /// Constants of the drive of a design point.
     pub struct DriveConstants<R> {
-        /// Constant part of the voltage (V). It is zero if the stroke is prescribed.
+        /// Constant part of the voltage (V). The constant part is zero if the stroke is prescribed.
         pub bias: R,
         /// Amplitude of the voltage (V), or of the prescribed stroke (rad).
         pub amplitude: R,
-        /// Angular frequency of the drive (rad/s). For a chirp, it is the angular frequency at the beginning.
+        /// Angular frequency of the drive (rad/s). For a chirp, `rate` is the angular frequency at the
+        /// beginning.
         pub rate: R,
-        /// Rate of change of the angular frequency (rad/s²). It is zero for all waveforms except a chirp.
+        /// Rate of change of the angular frequency (rad/s²). This rate of change is zero for all waveforms
+        /// except a chirp.
         pub growth: R,
         /// Factors of sin 2θ and cos 2θ in the second harmonic.
         pub second: [R; 2],

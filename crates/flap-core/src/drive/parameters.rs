@@ -71,7 +71,7 @@ impl WaveformParameters {
 crate::parameters! {
     /// Parameters of a prescribed stroke.
     pub struct StrokeParameters {
-        /// Motion of the stroke: driven by the actuator, or prescribed. A prescribed stroke is
+        /// Selects whether the stroke is driven by the actuator or prescribed. A prescribed stroke is
         /// stroke_amplitude times the waveform of the drive, and the force for this motion is not limited.
         /// The pitch always results from the equations of motion, whether the stroke is prescribed or not.
         stroke_mode: StrokeMode = ("", "", Choice(StrokeMode::NAMES)),

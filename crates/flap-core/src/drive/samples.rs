@@ -11,8 +11,8 @@ use crate::parameter::Invalid;
 /// Smallest number of samples that a record may have.
 const FEWEST: usize = 4;
 
-/// Smallest magnitude of a first harmonic, as a fraction of the record's range. If the magnitude is smaller,
-/// the record counts as a record without a first harmonic.
+/// Smallest magnitude of a first harmonic, as a fraction of the record's range. A record with a smaller first
+/// harmonic counts as a record without a first harmonic.
 const NO_HARMONIC: f64 = 1e-9;
 
 /// Continuation of a record after its last sample.

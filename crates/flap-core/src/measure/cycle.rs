@@ -44,7 +44,7 @@ pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
 /// Returns the sums over a whole period, given the sums over the first half of the period.
 ///
 /// The function `second_half` computes the sums of the signals over the second half. In the second half, the
-/// stroke, the force and the moment are mirror images of the first half.
+/// stroke, the force and the moment are mirror images of their values in the first half.
 pub(crate) fn over_both_halves<S: SignalSet>(
     (Each(first), load): &Sums<S, f64>,
     second_half: SecondHalf<S>,

@@ -34,8 +34,8 @@ impl<R: Real> StepPolynomial<R> {
         x.mul_add(x.mul_add(x.mul_add(x.mul_add(d, c), b), a), self.values[2])
     }
 
-    /// Returns the smallest and the largest value of the polynomial. Candidates for these values are the five
-    /// given points and two stationary points.
+    /// Returns the smallest and the largest value of the polynomial. The function compares the values at the
+    /// five given points and at two stationary points.
     ///
     /// The stationary points are the vertices of two parabolas, one in each half of the step. The error of
     /// the value of an extremum is proportional to the square of the error of its position.

@@ -10,8 +10,8 @@ const LONGEST: usize = LONGEST_PERIOD as usize;
 /// Smallest distance between two consecutive states of a subharmonic orbit at the ends of drive periods, in
 /// units of the states' typical sizes.
 ///
-/// A motion that slowly approaches an orbit of one period also returns close to its own earlier states.
-/// Without this limit, the motion would count as subharmonic.
+/// A motion that slowly approaches an orbit of one period also returns close to its own earlier states. The
+/// smallest distance ensures that flap does not report such a motion as a subharmonic orbit.
 const SEPARATE: f64 = 1e-2;
 
 /// The states at the ends of the last drive periods.
@@ -31,8 +31,9 @@ impl<const N: usize> Strobe<N> {
     /// Returns a strobe (a record of states at the ends of periods) that contains only the initial state.
     ///
     /// The unit of the change of a state component is its typical size in `scale`. In a motion smaller than
-    /// `scale`, changes are relative to the size of the motion. Without this rule, a motion with a very small
-    /// amplitude would always count as settled. A change of the state of up to `tolerance` counts as zero.
+    /// `scale`, changes are relative to the size of the motion. If changes were not relative to the size of
+    /// the motion, a motion with a very small amplitude would always count as settled. A change of the state
+    /// of up to `tolerance` counts as zero.
     pub fn new(initial: &[f64; N], scale: &[f64; N], tolerance: f64) -> Strobe<N> {
         Strobe { scale: *scale, tolerance, states: [*initial; LONGEST + 1], repeats: [0; LONGEST], cycles: 0 }
     }

@@ -27,7 +27,7 @@ use super::real::Real;
 pub(super) struct Avx512(());
 
 impl Avx512 {
-    /// Returns the value if the processor has the instructions, and `None` otherwise.
+    /// Returns the value of this type if the processor has the AVX-512 instructions, and `None` otherwise.
     pub(super) fn detect() -> Option<Avx512> {
         let has = is_x86_feature_detected!("avx512f")
             && is_x86_feature_detected!("avx512dq")

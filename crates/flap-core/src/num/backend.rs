@@ -19,7 +19,7 @@ use super::{Lanes, OneLane, Simd, Unfused, Vector};
 pub enum Arithmetic {
     /// Fused multiply-add, which rounds once: AVX2, AVX-512, NEON.
     Fused,
-    /// Separate multiplication and addition, which round twice: processors without a fused multiply-add.
+    /// Separate multiplication and addition, which round twice, for processors without a fused multiply-add.
     Unfused,
 }
 
@@ -51,7 +51,8 @@ pub trait Kernel {
     /// Result of the computation.
     type Output;
 
-    /// Runs the computation with the instructions of `S`. Mark implementations `#[inline(always)]`.
+    /// Runs the computation with the instructions of `S`. Write `#[inline(always)]` before the implementation
+    /// of this function.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
@@ -107,8 +108,8 @@ impl Backend {
         self.arithmetic
     }
 
-    /// Returns the number of lanes of the backend. It is the number of `f64` in two registers, or 1 for the
-    /// backend `scalar`.
+    /// Returns the number of lanes of the backend. The number of lanes is the number of `f64` in two
+    /// registers, or 1 for the backend `scalar`.
     pub fn lanes(self) -> usize {
         struct Count;
 

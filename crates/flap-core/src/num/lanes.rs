@@ -94,8 +94,8 @@ pub trait Simd: Copy {
     fn vectorize<T>(self, work: impl FnOnce() -> T) -> T;
 }
 
-/// Number type for the instructions `S`. It has 16 lanes with AVX-512, 8 lanes with AVX2, 4 lanes with NEON,
-/// and 1 lane with scalars.
+/// Number type for the instructions `S`. The number type has 16 lanes with AVX-512, 8 lanes with AVX2, 4
+/// lanes with NEON, and 1 lane with scalars.
 pub type Vector<S> = <S as Simd>::Vector;
 
 /// The number 1.5 · 2^52. If this number is added to x, the low bits of the sum contain x, rounded to a whole

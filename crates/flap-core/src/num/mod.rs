@@ -4,7 +4,7 @@
 //! [`Vector`] (one point for each SIMD lane). The results with the two types are equal to the last bit, for
 //! these reasons:
 //!
-//! - no operation mixes lanes, so the result in a lane never depends on other lanes;
+//! - no operation combines numbers of different lanes, so the result in a lane never depends on other lanes;
 //! - elementary functions are polynomials in this crate, and not functions of std or the C library;
 //! - the Rust compiler neither reassociates nor contracts floating-point expressions.
 //!

@@ -47,16 +47,16 @@ pub trait Real:
     /// for NaN.
     fn exp(self) -> Self;
 
-    /// Returns e^x − 1. The result is accurate for small x, too. It is infinite above 709.78, and NaN for
-    /// NaN.
+    /// Returns e^x − 1. The result is accurate for small x, too. The result is infinite above 709.78, and NaN
+    /// for NaN.
     fn exp_m1(self) -> Self;
 
     /// Returns the natural logarithm. The result is −∞ for 0 and subnormal numbers, and NaN for negative numbers and
     /// for NaN.
     fn ln(self) -> Self;
 
-    /// Returns ln(1 + x). The result is accurate for small x, too. It is −∞ for −1, and NaN for smaller
-    /// numbers and for NaN.
+    /// Returns ln(1 + x). The result is accurate for small x, too. The result is −∞ for x = −1, and NaN for
+    /// smaller x and for NaN.
     fn ln_1p(self) -> Self;
 
     /// Returns a mask that is true in the lanes with `self < other`. The mask is false in lanes in which one

@@ -24,7 +24,7 @@ impl<S: Simd> lanes::Simd for Instructions<S> {
     }
 }
 
-/// One SIMD register. It has 4 lanes with AVX2, and 2 lanes with NEON.
+/// One SIMD register. The register has 4 lanes with AVX2, and 2 lanes with NEON.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Register<S: Simd>(S::f64s);
 

@@ -196,7 +196,8 @@ fn call<T>(work: impl FnOnce() -> T) -> T {
     work()
 }
 
-/// An `f64` whose `mul_add` rounds its result twice. It is the scalar of [`super::Arithmetic::Unfused`].
+/// An `f64` whose `mul_add` rounds its result twice. `Unfused` is the scalar of
+/// [`super::Arithmetic::Unfused`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unfused(pub f64);
 

@@ -8,7 +8,7 @@
 //! The base-2 logarithm of the factor between two step sizes is rounded to a multiple of 1/8. Two motions
 //! that hardly differ are therefore integrated with exactly the same steps, and their final states also
 //! hardly differ. Without this rounding, the state at the end of a period would vary by the integration
-//! error. A motion would then not meet a tight settling tolerance.
+//! error. Because of this variation, a motion would not meet a tight settling tolerance.
 
 use crate::num::Lanes;
 
@@ -18,7 +18,8 @@ const ALPHA: f64 = 0.2 - 0.75 * BETA;
 /// Base-2 logarithms of the smallest and the largest factor between two step sizes, 0.21 and 9.5.
 const OCTAVES_MIN: f64 = -18.0 / 8.0;
 const OCTAVES_MAX: f64 = 26.0 / 8.0;
-/// Base-2 logarithm of the squared error 10^-8. For a smaller error, the controller stores this value.
+/// Base-2 logarithm of 10^-8, the smallest squared error that the controller stores. A smaller squared error
+/// is stored as 10^-8.
 const LOG2_ERROR_MIN: f64 = -26.575_424_759_098_897;
 
 /// Values that the controller keeps from one step to the next.
@@ -26,8 +27,8 @@ const LOG2_ERROR_MIN: f64 = -26.575_424_759_098_897;
 pub(super) struct Memory<R> {
     /// Base-2 logarithm of the squared error of the last accepted step.
     pub log2_error: R,
-    /// Base-2 logarithm of the largest allowed ratio of the next step size to the last step size. It is 0 (a
-    /// ratio of 1) right after a rejected step.
+    /// Base-2 logarithm of the largest allowed ratio of the next step size to the last step size. The
+    /// logarithm is 0 (a ratio of 1) right after a rejected step.
     pub(super) octaves_max: R,
 }
 

@@ -33,7 +33,7 @@ pub trait Ode<const N: usize>: Sync {
     fn rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N];
 
     /// True if some variants of the equations are [plain](Ode::is_plain). The compiler then compiles the
-    /// steps of plain variants separately.
+    /// steps of plain variants separately from the steps of all other variants.
     const HAS_PLAIN: bool = false;
 
     /// Returns true if this variant of the equations is plain: [`Ode::plain_rhs`] computes the derivative ẏ
@@ -44,14 +44,15 @@ pub trait Ode<const N: usize>: Sync {
     }
 
     /// Returns the derivative ẏ of a plain variant, equal to the result of [`Ode::rhs`] to the last bit. The
-    /// function does not contain the code of variants that are not plain, because this code would slow down
-    /// the steps.
+    /// function contains only the code of plain variants, because the code of all other variants would slow
+    /// down the steps.
     #[inline(always)]
     fn plain_rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N] {
         self.rhs(c, u, side, y)
     }
 
-    /// Returns the next time after `t` (s) at which the inputs are not smooth, such as the edge of a square wave.
+    /// Returns the next time after `t` (s) at which the inputs are not smooth, for example at the edge of a
+    /// square wave.
     ///
     /// The result is infinite if the inputs are smooth after `t`. A step always ends at each time at which
     /// the inputs are not smooth.
@@ -69,9 +70,9 @@ pub trait Ode<const N: usize>: Sync {
     ///
     /// A motion that stays on the surface, such as a stroke that sticks due to friction, crosses the surface
     /// again and again in short steps. The row of such a motion has the status
-    /// [`StepLimit`](crate::simulate::Status::StepLimit), or an infinite error estimate. The same happens if
-    /// a motion begins on the surface, at rest with a drive that begins at zero. If a motion begins at rest
-    /// on the surface, choose an initial state with a small rate instead.
+    /// [`StepLimit`](crate::simulate::Status::StepLimit), or an infinite error estimate. A motion that begins
+    /// on the surface, at rest and with a drive that begins at zero, also needs too many short steps. For
+    /// this motion, choose an initial state with a small rate.
     #[inline(always)]
     fn switch<R: Real>(&self, c: &Self::Constants<R>, y: &[R; N], dy: &[R; N]) -> [R; 2] {
         let _ = (c, dy);
@@ -124,8 +125,8 @@ pub struct Start<C, const N: usize> {
     /// Typical size of each component of the state. The absolute tolerances are multiples of the typical
     /// sizes.
     pub scale: [f64; N],
-    /// Factor by which the relative and the absolute tolerance are multiplied. It is 1 for most runs, and
-    /// less than 1 for more accurate runs.
+    /// Factor by which the relative and the absolute tolerance are multiplied. The factor is 1 for most runs,
+    /// less than 1 for more accurate runs, and more than 1 for less accurate runs.
     pub tolerance_factor: f64,
     /// Size of the change of each component of the initial state, if the responses to these changes are
     /// integrated.
@@ -171,11 +172,11 @@ impl Tolerances {
 /// Number of evaluations of the right-hand side for the choice of the first step size.
 const START_RHS_EVALS: u64 = 2;
 
-/// Number of steps within a time span between two calls of an [`Interrupt`]. These steps take a few
+/// Number of steps within a time span between two calls of an [`Interrupt`]. This number of steps takes a few
 /// milliseconds.
 pub(crate) const INTERRUPT_STEPS: u32 = 4096;
 
-/// Smallest step size, as a fraction of the time span. A run ends if its step size becomes smaller.
+/// Smallest step size, as a fraction of the time span. A run ends if its step size falls below this limit.
 pub(crate) const MIN_STEP: f64 = 1e-14;
 
 /// Largest factor by which a step may be lengthened so that it ends exactly at the end of the time span.
@@ -199,7 +200,7 @@ impl Ending {
     }
 }
 
-/// Ending and cost of a run.
+/// Reason for the end of a run, and the numbers of steps and evaluations of the run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Outcome {
     /// Reason for the end.
@@ -223,8 +224,8 @@ impl Outcome {
 
 /// Callback that returns true to end a run early.
 ///
-/// The integrator calls it at the end of each time span, and after every few thousand steps within a time
-/// span. After the callback has returned true once, it must always return true.
+/// The integrator calls the callback at the end of each time span, and after every few thousand steps within
+/// a time span. After the callback has returned true once, it must always return true.
 pub type Interrupt<'a> = &'a dyn Fn() -> bool;
 
 /// An [`Interrupt`] that never ends a run.

@@ -20,7 +20,7 @@ pub struct Step<R, const N: usize> {
 /// An attempted step and its position in time.
 #[derive(Clone, Copy, Debug)]
 pub struct Attempt<'a, R, const N: usize> {
-    /// Time within the time span at the beginning of the step (s).
+    /// Time from the beginning of the time span to the beginning of the step (s).
     pub t: R,
     /// Step size (s).
     pub h: R,
@@ -190,7 +190,7 @@ impl<R: Real, const N: usize> Step<R, N> {
     }
 }
 
-/// Largest number of numbers in an input for which the inputs of all stages of a step are computed together.
+/// Largest size of an input, in numbers, for which the inputs of all stages of a step are computed together.
 const AHEAD: usize = 3;
 
 /// Number of state components that are summed together, so that the sums stay in registers.

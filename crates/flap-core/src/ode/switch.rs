@@ -11,9 +11,9 @@
 //! first slope of the next step again.
 //!
 //! Two crossings within one step do not change the sign of the switching function at the end of the step. The
-//! switching function then approaches zero at the beginning of the step and departs from zero at the end. The
-//! cubic polynomial may also have a minimum on the opposite side. In this case, the step is repeated up to
-//! this minimum, which lies after the first crossing.
+//! switching function then approaches zero at the beginning of the step and departs from zero at the end. If
+//! the cubic polynomial also has a minimum on the opposite side, the step is repeated up to this minimum,
+//! after the first crossing.
 
 use super::step::Step;
 use super::variation::{Varied, crossed, slopes_outlined};
@@ -35,8 +35,8 @@ const REACHED: f64 = 1e-2;
 /// Largest distance from the surface, as a fraction of an ordinary step, at which the step size is corrected.
 const NEAR: f64 = 0.1;
 
-/// Smallest fraction of a step at which a minimum of the switching function indicates two crossings within
-/// the step.
+/// A minimum of the switching function indicates two crossings within a step only if it lies after this
+/// fraction of the step.
 const EARLIEST: f64 = 1e-2;
 
 /// Values about a run and its switching surface that are kept from one step to the next.
@@ -67,7 +67,7 @@ pub(super) struct Crossing<R: Lanes> {
 }
 
 impl<R: Lanes> Switching<R> {
-    /// Returns the values of a run before the integrator has determined the side of the run.
+    /// Returns the initial values for a run, before the integrator has determined the side of the run.
     #[inline(always)]
     pub(super) fn new(like: R) -> Switching<R> {
         let zero = like.lit(0.0);

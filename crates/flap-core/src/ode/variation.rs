@@ -17,8 +17,8 @@ const SMALL: f64 = 1e-7;
 
 /// Typical size of a response, divided by the change of the initial state that causes the response.
 ///
-/// By default, the absolute tolerance is a hundredth of the relative tolerance. With this factor, a response
-/// near zero has an absolute tolerance of the relative tolerance times the change of the initial state.
+/// By default, the absolute tolerance is a hundredth of the relative tolerance. With this factor, the
+/// tolerance of a response near zero is the relative tolerance times the change of the initial state.
 pub(super) const RESPONSE_SCALE: f64 = 100.0;
 
 /// A quantity of a motion, and the same quantity of the motion's responses to D changes of the initial state.
@@ -100,10 +100,12 @@ pub(super) fn slopes_outlined<O: Ode<N>, R: Real, const N: usize, const D: usize
     )
 }
 
-/// Returns the state and its responses right after the motion has crossed the switching surface to this `side`.
+/// Returns the state and its responses right after the motion has crossed the switching surface. `side` is
+/// the new side of the motion.
 ///
 /// A change w of the state changes the switching function by dg, and therefore the time of the crossing by
-/// −dg/ġ. Between the two times, the changed motion has the slope of the opposite side:
+/// −dg/ġ. Between the old and the new time of the crossing, the changed motion has the slope of the opposite
+/// side:
 ///
 /// ```text
 /// w⁺ = w + (f⁺ − f⁻) dg/ġ⁻

@@ -219,7 +219,8 @@ macro_rules! choice {
 
 /// A field of a parameter struct: one value of a design point, or the values of a struct of parameters.
 pub trait Slot {
-    /// Returns the field, computed from the next values of a point. If a value is missing, the parameter is not set.
+    /// Reads the values of the field from the next entries of `values`, and returns the field. If a value is
+    /// missing, the parameter counts as not set.
     fn take(values: &mut impl Iterator<Item = f64>) -> Self;
 
     /// Appends the values of the field to the values of a point.

@@ -26,8 +26,8 @@ pub struct Parameter<'a> {
     pub is_fitted: bool,
     /// Names of other parameters, each with an exponent. A change of one of these parameters usually changes
     /// this parameter, too. For example, the inertia of a wing grows with the fourth power of the wing length
-    /// if shape and thickness stay the same. Models do not apply these exponents, but `flap check` reports
-    /// them.
+    /// if shape and thickness stay the same. Models do not use these exponents, but `flap check` reports
+    /// parameters that should change together.
     pub scales_with: &'static [(&'static str, f64)],
 }
 
@@ -67,7 +67,8 @@ pub enum Kind<'a> {
     /// A number that flap computes from other parameters if the parameter is not set. The text describes the
     /// computed value, for example `"half of actuator_length"`.
     Following(Range, &'static str),
-    /// One of several named options: an interpretation of the paper, or a modelling choice.
+    /// One of several named options. The options are different interpretations of a paper, or different
+    /// modelling choices.
     Choice(&'a [&'a str]),
 }
 

@@ -12,7 +12,7 @@ pub struct Integrated<T, const N: usize> {
     pub y: [f64; N],
     /// Sums that the observer has computed during the run.
     pub totals: T,
-    /// Ending and cost of the run.
+    /// Reason for the end of the run, and the numbers of steps and evaluations.
     pub outcome: Outcome,
 }
 

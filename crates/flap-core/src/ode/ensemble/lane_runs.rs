@@ -252,7 +252,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         core::array::from_fn(|i| self.responses[i].y[0].get(lane))
     }
 
-    /// Returns the observer's totals for the run in one lane.
+    /// Returns the sums that the observer has computed for the run in one lane.
     pub(super) fn totals(&self, lane: usize) -> V::Totals<f64> {
         self.totals.get(lane)
     }

@@ -20,8 +20,8 @@ pub struct SpanEnd<'a, T, const N: usize> {
     /// Responses of the state to a change of each component of the initial state by [`Start::change`]. The
     /// function [`run`](super::run) computes no responses, so the slice is empty.
     pub responses: &'a [[f64; N]],
-    /// Ending of the run, and its cost since the start. At the end of a time span, the ending is
-    /// [`Stopped`](crate::ode::Ending::Stopped).
+    /// Reason for the end of the run, and the numbers of steps and evaluations since the start of the run. At
+    /// the end of a time span, the ending is [`Stopped`](crate::ode::Ending::Stopped).
     pub outcome: Outcome,
 }
 
@@ -31,8 +31,8 @@ pub enum Next<const N: usize> {
     /// The run continues with the next time span, from the state at the end of the last time span. For a
     /// failed run, this task is not allowed.
     Span,
-    /// The run is replaced by a run with a different initial state or different tolerances. Sums and costs
-    /// begin at zero again.
+    /// The run is replaced by a run with a different initial state or different tolerances. The sums, and the
+    /// numbers of steps and evaluations, begin at zero again.
     Restart(Restart<N>),
 }
 
@@ -42,8 +42,8 @@ pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
     /// Returns the start of the next run, which flap loads into the free lane `lane`. The result is `None` if
     /// no run is available at present.
     ///
-    /// If `idle` is true, no lane has a run. In this case the function may wait for a run, and the result `None` ends
-    /// the ensemble.
+    /// If `idle` is true, no lane has a run. If no lane has a run, the function may wait for a run, and the
+    /// result `None` ends the ensemble.
     fn next(&mut self, lane: usize, idle: bool) -> Option<Start<O::Constants<f64>, N>>;
 
     /// Receives the run in a lane at the end of a time span, or after a failure of the run. Returns the next

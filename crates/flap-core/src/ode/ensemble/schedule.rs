@@ -8,8 +8,7 @@ use super::queue::{MOST_LANES, Next, Observer, Queue, SpanEnd};
 use crate::num::{Lanes, Simd, Vector};
 use crate::ode::{Ending, INTERRUPT_STEPS, Ode, Outcome, Start, Tolerances};
 
-/// Use of the lanes of an ensemble: the number of steps that were attempted for runs, compared with the
-/// number in all lanes.
+/// Use of the lanes of an ensemble: the number of attempted steps in lanes with a run, and in all lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Occupancy {
     /// Number of steps attempted in lanes that have a run.
@@ -25,7 +24,8 @@ impl AddAssign for Occupancy {
     }
 }
 
-/// Integrates the runs of `queue` until the queue is empty or interrupted. Returns the use of the lanes.
+/// Integrates the runs of `queue` until the queue is empty or interrupted. Returns the number of steps that
+/// were attempted in lanes with a run, and in all lanes.
 pub fn run<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     simd: S,
     ode: &O,
@@ -74,7 +74,7 @@ struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D:
     runs: LaneRuns<R, O, V, N, D>,
     /// Value of `steps` at the beginning of the run in each lane.
     began: [u64; MOST_LANES],
-    /// Number of attempted steps. In each of these steps, all lanes advance together.
+    /// Number of attempted steps. A step of all lanes together counts once.
     steps: u64,
     /// Number of steps of all runs that have ended.
     used: u64,
