@@ -15,22 +15,24 @@ pub fn journal_of(results: &Path) -> PathBuf {
     with_ending(results, ".journal")
 }
 
-/// Returns the path of the file with the rows of an unfinished Parquet file: `<results>.part`.
+/// Returns the path of the file that contains the rows until a Parquet file is complete: `<results>.part`.
 pub fn part_of(results: &Path) -> PathBuf {
     with_ending(results, ".part")
 }
 
-/// Returns the path of the lock file: `<results>.lock`, or a file beside the target if `results` is a link.
+/// Returns the path of the lock file, `<results>.lock`. If `results` is a link, the lock file is beside the
+/// target of the link.
 pub fn lock_of(results: &Path) -> PathBuf {
     with_ending(&disk::target(results), ".lock")
 }
 
-/// Returns the path of the rows before the results are complete. For a Parquet file, the path is [`part_of`].
+/// Returns the path of the file that contains the rows of unfinished results. For Parquet, this file is
+/// [`part_of`].
 pub fn rows_of(results: &Path, format: Format) -> PathBuf {
     if format.is_columnar() { part_of(results) } else { results.to_owned() }
 }
 
-/// Returns the paths of the sidecar, the journal, the rows of an unfinished Parquet file, and the lock file.
+/// Returns the paths of the sidecar, of the journal, of the file `<results>.part`, and of the lock file.
 pub(crate) fn all_of(results: &Path) -> [PathBuf; 4] {
     [sidecar_of(results), journal_of(results), part_of(results), lock_of(results)]
 }

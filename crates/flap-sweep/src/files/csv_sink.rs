@@ -6,17 +6,17 @@ use crate::run::Sink;
 use crate::table::layout::Cell;
 use crate::table::lines::Lines;
 
-/// Sink that writes one header line and one line per row, uncompressed.
+/// Writer of uncompressed CSV text: one header line, then one line per row.
 ///
-/// Numbers are written by [`crate::notation::text::float`], choices by the name of their option. The cell of an
-/// unknown value is empty.
+/// Numbers have the format of [`crate::notation::text::float`]. The cell of a choice contains the name of the
+/// chosen option. The cell of an unknown value is empty.
 pub struct CsvSink<W: Write> {
     names: Vec<String>,
     lines: Lines<W>,
 }
 
 impl<W: Write> CsvSink<W> {
-    /// Returns a sink that writes to `target` rows with the columns `names`.
+    /// Returns a sink that writes rows to `target`. The rows have the columns `names`.
     pub fn new(names: Vec<String>, target: W) -> CsvSink<W> {
         CsvSink { names, lines: Lines::new(target) }
     }
@@ -41,10 +41,11 @@ impl<W: Write> Sink for CsvSink<W> {
     }
 }
 
-/// Returns the error of the operating system, such as a closed pipe, or [`io::ErrorKind::InvalidData`] with the
-/// mistake in the table.
+/// Converts an error of the csv crate into an I/O error. If the table has a mistake, such as a missing cell,
+/// the result is [`io::ErrorKind::InvalidData`] with the number of the line. If the operating system reported
+/// the error, such as a closed pipe, the result is this error.
 ///
-/// The conversion of the csv crate would hide the error of the operating system.
+/// The conversion that the csv crate provides would hide the error of the operating system.
 pub fn cause(error: csv::Error) -> io::Error {
     let wrong = |place: Option<csv::Position>, what: String| {
         let line = place.map_or_else(String::new, |place| format!("line {}: ", place.line()));

@@ -1,4 +1,4 @@
-//! Operations that make files durable, replace files as a whole, compare files, and remove files.
+//! Functions that store files safely on disk, replace whole files, compare files, and remove files.
 
 use std::fs::{self, File};
 use std::io;
@@ -9,39 +9,41 @@ use same_file::Handle;
 
 use crate::system;
 
-/// Waits until the written bytes would survive a crash of the machine. Does nothing for devices and pipes, which may not
-/// support synchronisation and cannot lose data.
+/// Waits until the written bytes would survive a crash of the machine. The function does nothing for devices
+/// and pipes, because devices and pipes store nothing and may not support `fsync`.
 ///
 /// # Errors
-/// The error of the operating system.
+/// Returns the error of the operating system.
 pub(crate) fn sync(file: &File) -> io::Result<()> {
     if file.metadata()?.is_file() { file.sync_all() } else { Ok(()) }
 }
 
-/// New contents of a file, which replace the earlier file when the new contents are complete and durable.
+/// A new version of a file. The new version replaces the earlier version only when the new version is
+/// complete and safe on disk.
 ///
-/// Until the contents are complete, the file has no name or a unique name. If the name is a link, the link is replaced.
+/// Until the new version is complete, it is in a file without a name or with a temporary name. If the file
+/// name belongs to a symbolic link, the new version replaces the link, not the target of the link.
 pub(crate) struct Whole(AtomicWriteFile);
 
 impl Whole {
-    /// Creates a file that will get the name `path`.
+    /// Creates an empty file. When [`Whole::commit`] is called, the file gets the name `path`.
     ///
     /// # Errors
-    /// The error of the operating system.
+    /// Returns the error of the operating system.
     pub(crate) fn begin(path: &Path) -> io::Result<Whole> {
         AtomicWriteFile::open(path).map(Whole)
     }
 
-    /// Returns the open file, for writing.
+    /// Returns the file, which is open for writing.
     pub(crate) fn file(&self) -> &File {
         self.0.as_file()
     }
 
-    /// Gives the file its name, and waits until file and name would survive a crash of the machine.
+    /// Gives the file its final name, and waits until the file and its name are safe on disk.
     ///
     /// # Errors
-    /// The error of the operating system. After an error, an earlier file is unchanged, unless the error occurred while
-    /// the new name was made durable.
+    /// Returns the error of the operating system. If the error occurs before the file has its final name, the
+    /// earlier version of the file is unchanged.
     pub(crate) fn commit(self) -> io::Result<()> {
         self.0.commit().map_err(|error| {
             // On Linux, a file without a name gets its name through /proc.
@@ -56,7 +58,8 @@ impl Whole {
     }
 }
 
-/// Returns true if the name is free: it belongs to no file or to an empty file. The name of a link is not free.
+/// Returns true if the name `path` is free: no file has this name, or the file with this name is empty. The
+/// name of a link is not free.
 pub(crate) fn is_free(path: &Path) -> bool {
     match fs::symlink_metadata(path) {
         Ok(metadata) => metadata.is_file() && metadata.len() == 0,
@@ -64,10 +67,12 @@ pub(crate) fn is_free(path: &Path) -> bool {
     }
 }
 
-/// Creates a new file for reading and writing. The new file may replace an empty file.
+/// Creates a new file for reading and writing. If an empty file has the same name, the new file replaces the
+/// empty file.
 ///
 /// # Errors
-/// - [`io::ErrorKind::AlreadyExists`] if the name is not [free](is_free).
+/// - [`io::ErrorKind::AlreadyExists`] if a file with contents, a folder or a link has this name: see
+///   [`is_free`].
 /// - The error of the operating system if the file cannot be created.
 pub(crate) fn create_new(path: &Path) -> io::Result<File> {
     if is_taken(path) && is_free(path) {
@@ -76,7 +81,8 @@ pub(crate) fn create_new(path: &Path) -> io::Result<File> {
     File::options().read(true).write(true).create_new(true).open(path)
 }
 
-/// Opens a file for reading and writing, or creates it as [`create_new`] does.
+/// Opens a file for reading and writing. If the file does not exist, the function creates it with
+/// [`create_new`].
 pub(crate) fn open_or_create(path: &Path) -> io::Result<File> {
     match File::options().read(true).write(true).open(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => create_new(path),
@@ -84,21 +90,22 @@ pub(crate) fn open_or_create(path: &Path) -> io::Result<File> {
     }
 }
 
-/// Renames a file, and waits until the new name would survive a crash of the machine.
+/// Renames a file, and waits until the new name is safe on disk.
 pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     fs::rename(from, to)?;
     sync_folder(to)
 }
 
-/// Returns true if anything has this name, including a link to a missing file.
+/// Returns true if a file, a folder or a link has the name `path`. A link counts even if its target does not
+/// exist.
 pub(crate) fn is_taken(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
 
-/// Longest chain of links that is followed, as on Linux.
+/// Largest number of symbolic links that [`target`] follows one after the other. Linux has the same limit.
 const MOST_LINKS: usize = 40;
 
-/// Returns the target of a link. The target of the link need not exist. Paths that are not links are returned
+/// Returns the target of a symbolic link. The target need not exist. A path that is not a link is returned
 /// unchanged.
 pub fn target(path: &Path) -> PathBuf {
     let mut target = path.to_owned();
@@ -112,7 +119,7 @@ pub fn target(path: &Path) -> PathBuf {
 /// Empties a file. Does nothing for devices and pipes.
 ///
 /// # Errors
-/// The error of the operating system.
+/// Returns the error of the operating system.
 pub fn empty(file: &File) -> io::Result<()> {
     if file.metadata()?.is_file() { file.set_len(0) } else { Ok(()) }
 }
@@ -122,7 +129,7 @@ pub(crate) fn is_stream(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| system::is_stream(&metadata))
 }
 
-/// Returns true if there is no file at `path`, or an empty file.
+/// Returns true if no file exists at `path`, or if the file at `path` is empty.
 pub fn is_empty(path: &Path) -> bool {
     fs::metadata(path).map_or(true, |metadata| metadata.is_file() && metadata.len() == 0)
 }
@@ -135,7 +142,7 @@ pub(crate) fn remove_if_there(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Makes new names of files in the folder of `path` durable.
+/// Waits until the names of new files in the folder of `path` are safe on disk.
 pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     use io::ErrorKind::{InvalidInput, PermissionDenied, Unsupported};
     match File::open(folder_of(path)).and_then(|folder| folder.sync_all()) {
@@ -145,16 +152,17 @@ pub(crate) fn sync_folder(path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns the folder of `path`. If `path` is only a name, the folder is the working directory.
+/// Returns the folder of `path`. If `path` is a file name without a folder, the result is the working
+/// directory.
 fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Checks that `file` is still the file at `path`.
+/// Checks that the file with the name `path` is still the open file `file`.
 ///
 /// # Errors
-/// [`io::ErrorKind::Other`] if there is no file or a different file at `path`. In all other cases, the error of the
-/// operating system.
+/// Returns [`io::ErrorKind::Other`] if there is no file at `path`, or if the file at `path` is a different
+/// file. If the check itself fails, the function returns the error of the operating system.
 pub(crate) fn check_in_place(file: &File, path: &Path) -> io::Result<()> {
     if is_in_place(file, path)? {
         Ok(())
@@ -163,11 +171,11 @@ pub(crate) fn check_in_place(file: &File, path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns true if `file` is still the file at `path`.
+/// Returns true if the file with the name `path` is still the open file `file`.
 ///
 /// # Errors
-/// The error of the operating system. If a file is removed on Windows while it is open, the error may be
-/// [`io::ErrorKind::PermissionDenied`] until the file is closed.
+/// Returns the error of the operating system. On Windows, the error may be
+/// [`io::ErrorKind::PermissionDenied`] if the file was removed but is still open.
 pub(crate) fn is_in_place(file: &File, path: &Path) -> io::Result<bool> {
     match Handle::from_path(path) {
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(false),
@@ -175,14 +183,14 @@ pub(crate) fn is_in_place(file: &File, path: &Path) -> io::Result<bool> {
     }
 }
 
-/// Returns true if both names belong to the same file. Devices and pipes never count as the same file, because devices
-/// and pipes store nothing.
+/// Returns true if `a` and `b` are paths of the same file. The result is false for devices and pipes, because
+/// devices and pipes store nothing.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     let is_file = |path| fs::metadata(path).is_ok_and(|metadata| metadata.is_file());
     is_file(a) && is_file(b) && same_file::is_same_file(a, b).unwrap_or(false)
 }
 
-/// Returns true if writing to both names would write to the same file. The files need not exist.
+/// Returns true if `a` and `b` are paths of the same file, even if the file does not exist yet.
 pub fn is_same_target(a: &Path, b: &Path) -> bool {
     let place = |path: &Path| Some((fs::canonicalize(folder_of(path)).ok()?, path.file_name()?.to_owned()));
     a == b || is_same_file(a, b) || place(a).is_some_and(|a| Some(a) == place(b))

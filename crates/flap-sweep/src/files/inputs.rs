@@ -13,13 +13,13 @@ pub struct Inputs {
     files: Vec<(&'static str, PathBuf)>,
 }
 
-/// Error of an output file that is also an input file.
+/// Error if an output file is also an input file of the same command.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("writing {} would overwrite {what} {}: choose another name", output.display(), input.display())]
 pub struct Overlap {
     /// Output file.
     pub output: PathBuf,
-    /// Description of the input, such as "the grid file".
+    /// Words that describe the input file in the message, such as "the grid file".
     pub what: &'static str,
     /// Input file.
     pub input: PathBuf,
@@ -31,13 +31,13 @@ impl Inputs {
         Inputs::default()
     }
 
-    /// Adds an input file. `what` is the description of the file, such as "the grid file".
+    /// Adds an input file. `what` describes the file in messages, for example "the grid file".
     pub fn add(&mut self, what: &'static str, path: &Path) -> &mut Inputs {
         self.files.push((what, path.to_owned()));
         self
     }
 
-    /// Adds results and the files that flap stores beside the results.
+    /// Adds a result file and the files that flap stores beside the result file, such as the sidecar.
     pub fn add_results(&mut self, what: &'static str, path: &Path) -> &mut Inputs {
         self.add(what, path);
         for beside in beside::all_of(path) {
@@ -46,7 +46,7 @@ impl Inputs {
         self
     }
 
-    /// Adds the files from which `plan` was read.
+    /// Adds the grid file, the devices and the file of points from which `plan` was read.
     pub fn add_plan(&mut self, plan: &Plan) -> &mut Inputs {
         // The plan of a preset has the preset's name and no file.
         if plan.source().name != plan.preset() {
@@ -61,11 +61,12 @@ impl Inputs {
         self
     }
 
-    /// Checks result files as [`Inputs::protect`] does: results, their replacement, and the files that flap stores
-    /// beside the results.
+    /// Checks that a job with the result file `output` overwrites no input file. The function applies
+    /// [`Inputs::protect`] to the result file, to its replacement, and to the files that flap stores beside
+    /// them.
     ///
     /// # Errors
-    /// [`Overlap`] with the first file that would be overwritten.
+    /// Returns an [`Overlap`] with the first input file that would be overwritten.
     pub fn protect_from_results(&self, output: &Path) -> Result<(), Overlap> {
         for results in [output.to_owned(), replacement::of(output)] {
             self.protect(&results)?;
@@ -74,10 +75,11 @@ impl Inputs {
         Ok(())
     }
 
-    /// Checks that `output` is none of the inputs, also under another spelling or through a link.
+    /// Checks that `output` is not an input file, even if the path has a different spelling or is a link to
+    /// an input file.
     ///
     /// # Errors
-    /// [`Overlap`] with the first file that would be overwritten.
+    /// Returns an [`Overlap`] with the first input file that would be overwritten.
     pub fn protect(&self, output: &Path) -> Result<(), Overlap> {
         match self.files.iter().find(|(_, input)| disk::is_same_file(output, input)) {
             None => Ok(()),

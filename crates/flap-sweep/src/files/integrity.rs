@@ -1,10 +1,12 @@
-//! Checks that results are unchanged since they were written.
+//! Checks that result files are unchanged since flap wrote them.
 //!
-//! A sidecar contains two kinds of checksums of complete results. The checksum of the file's bytes is fast to compare.
-//! The checksums of blocks of rows locate damage.
+//! A sidecar contains two kinds of checksums of complete results. The checksum of all bytes of the file shows
+//! quickly if the file has changed. The checksums of the blocks of rows show which rows have changed.
 //!
-//! For unfinished results, the journal records the rows that are safe and the identity of the sweep. Of unfinished
-//! results, only the rows that the journal counts are read, and only with a sidecar of the same identity.
+//! For unfinished results, the journal records the number of rows that are safe on disk. The journal also
+//! records the identity of the sweep: the build and the settings that determine the rows. From undamaged
+//! unfinished results, flap reads only the rows that the journal counts. If the sidecar and the journal have
+//! different identities, the results count as damaged.
 
 use std::fmt;
 use std::fs::File;
@@ -25,25 +27,27 @@ use crate::notation::text::count;
 pub enum OnDamage {
     /// Damaged results are rejected.
     Refuse,
-    /// Readable rows are read, and a [`Note`] reports the damage.
+    /// flap reads all readable rows of damaged results, and reports the damage in a [`Note`].
     Tolerate,
 }
 
-/// Largest number of ranges in a message. The message also states the number of damaged ranges that it does not list.
+/// Largest number of ranges of damaged rows that a message lists. If there are more ranges, the message
+/// contains the number of further ranges.
 const MOST_LISTED: usize = 5;
 
-/// Differences between a result file and the file that flap wrote.
+/// Differences between a result file and the contents that flap wrote into the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Damage {
     /// Descriptions of the differences.
     differences: Vec<String>,
-    /// Number of rows in the journal that are missing in the file.
+    /// Number of rows that the journal counts, but that are missing in the file.
     pub lost: u64,
 }
 
 impl Damage {
-    /// Returns the damage of a text: the differences between the digest `found` of the text and the `checksums` of
-    /// `rows` written rows. `unreadable` is the reason why the rest of the text cannot be read.
+    /// Compares the checksums of a text, which are in `found`, with the recorded `checksums`, and returns the
+    /// differences. `rows` is the number of rows that flap wrote. If only the beginning of the text can be
+    /// read, `unreadable` is the reason.
     fn of_text(
         found: &TextDigest,
         checksums: &Checksums,
@@ -88,15 +92,17 @@ impl fmt::Display for Damage {
     }
 }
 
-/// Returns the message about a sidecar of another sweep. `differences` describes how the identities in the sidecar and
-/// in the journal differ.
+/// Returns the message that a sidecar belongs to a different sweep than the rows. `differences` contains the
+/// differences between the settings in the sidecar and in the journal.
 pub fn foreign_sidecar(differences: &[String]) -> String {
     format!("its sidecar belongs to another sweep: {}", differences.join("; "))
 }
 
-/// Returns the ranges of rows in changed blocks, counted from 1. `last` is the number of the last row.
+/// Returns the ranges of rows in blocks whose checksums differ. Rows are counted from 1, and `last` is the
+/// number of the last row.
 ///
-/// Each block contains at least one changed row. After a missing or additional row, all rows count as changed.
+/// A range contains whole blocks, although perhaps only one row of a block has changed. If a row was removed
+/// or added, all later rows count as changed.
 fn changed_rows(found: &[u32], written: &[u32], last: u64) -> Vec<RangeInclusive<u64>> {
     let mut ranges: Vec<RangeInclusive<u64>> = Vec::new();
     let blocks = written.len().max(found.len());
@@ -121,13 +127,14 @@ fn listed(ranges: &[RangeInclusive<u64>]) -> String {
     shown.join(", ") + &more
 }
 
-/// Error of results that cannot be read.
+/// Reason why results cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum OpenError {
-    /// The ending of the name belongs to no format.
+    /// The file name has no supported ending, such as `.csv`.
     #[error(transparent)]
     Format(#[from] FormatError),
-    /// The operating system reports an error, or the file does not have the format of its name.
+    /// The operating system reports an error, or the contents of the file do not match the ending of the file
+    /// name.
     #[error("cannot read {}: {source}", path.display())]
     Read {
         /// The file.
@@ -148,7 +155,7 @@ pub enum OpenError {
     },
 }
 
-/// A note about results for the user.
+/// A message for the user about the state of results.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Note {
     /// Another program has changed the results.
@@ -167,7 +174,8 @@ pub enum Note {
     Unfinished {
         /// The file.
         path: PathBuf,
-        /// Number of points that have rows or are excluded, if known.
+        /// Number of finished points, if known. A point is finished if all its rows are written, or if a
+        /// condition excludes the point.
         done: Option<u64>,
     },
     /// The results cannot be checked.
@@ -192,9 +200,11 @@ fn so_far(done: Option<u64>) -> String {
     }
 }
 
-/// Returns the damage of the complete results at `path`; `None` if there is no damage, or the sidecar has no checksums.
+/// Compares the complete results at `path` with the checksums in `sidecar`, and returns the damage. Returns
+/// `None` if the results are undamaged, or if the sidecar has no checksums.
 ///
-/// The file is read once, and a second time if its bytes have changed.
+/// The function reads the file once. If the checksum of all bytes is wrong, the function reads the file again
+/// to find the changed rows.
 ///
 /// # Errors
 /// - [`OpenError::Read`] if the file cannot be read.
@@ -225,7 +235,7 @@ pub fn check(
     }
 }
 
-/// Returns the damage of the rows. All rows are read from the file to locate the damage.
+/// Reads all rows of the file to find the damaged rows, and returns the damage.
 fn locate(path: &Path, format: Format, sidecar: &Sidecar, checksums: &Checksums) -> io::Result<Damage> {
     let (found, read) = sum_up(File::open(path)?, format);
     let unreadable = match read {
@@ -236,28 +246,28 @@ fn locate(path: &Path, format: Format, sidecar: &Sidecar, checksums: &Checksums)
     Ok(Damage::of_text(&found, checksums, sidecar.rows(), unreadable))
 }
 
-/// Longest row of a result file (bytes).
+/// Largest length of a row in a result file, in bytes.
 const LONGEST_ROW: u64 = 1 << 20;
 
-/// Format of the file that contains the rows of an unfinished Parquet file.
+/// Format of the file that contains the rows until a Parquet file is complete.
 const WAITING: Format = Format::CsvZstd;
 
 /// Results that are open for reading.
 pub struct Opened {
     /// Reader of the rows.
     pub reader: Reader,
-    /// Sidecar, if there is a sidecar that belongs to the rows.
+    /// Sidecar of the rows; `None` if the sidecar is missing, unreadable or from a different sweep.
     pub sidecar: Option<Sidecar>,
     /// Notes for the user.
     pub notes: Vec<Note>,
 }
 
-/// Returns the column names of the results at `path`, complete or not.
+/// Returns the column names of the complete or unfinished results at `path`.
 ///
-/// The function reads the beginning of the file, or the end of a Parquet file, and checks nothing.
+/// The function reads only the part of the file that contains the column names, and does not check the rows.
 ///
 /// # Errors
-/// - [`OpenError::Format`] if the ending of the name belongs to no format.
+/// - [`OpenError::Format`] if the file name has no supported ending, such as `.csv`.
 /// - [`OpenError::Read`] if the file cannot be read.
 pub fn names(path: &Path) -> Result<Vec<String>, OpenError> {
     let format = Format::of(path)?;
@@ -271,12 +281,14 @@ pub fn names(path: &Path) -> Result<Vec<String>, OpenError> {
     Ok(reader.names().to_vec())
 }
 
-/// Opens the results at `path`. Unfinished results end at their last checkpoint.
+/// Opens the results at `path` for reading. If the results are unfinished, the reader stops at the last
+/// checkpoint of the journal. Without a usable journal, the reader stops at the last complete row.
 ///
 /// # Errors
-/// - [`OpenError::Format`] if the ending of the name belongs to no format.
+/// - [`OpenError::Format`] if the file name has no supported ending, such as `.csv`.
 /// - [`OpenError::Read`] if the file cannot be read.
-/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged and `on_damage` is [`OnDamage::Refuse`].
+/// - [`OpenError::Sidecar`] if the sidecar cannot be read, or if it is damaged and `on_damage` is
+///   [`OnDamage::Refuse`].
 /// - [`OpenError::Damaged`] if the results are damaged and `on_damage` is [`OnDamage::Refuse`].
 pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
     let format = Format::of(path)?;
@@ -312,7 +324,8 @@ pub fn open(path: &Path, on_damage: OnDamage) -> Result<Opened, OpenError> {
     Ok(Opened { reader, sidecar, notes })
 }
 
-/// Returns the sidecar of the results at `path`; `None` if there is no sidecar, or the sidecar cannot be used.
+/// Returns the sidecar of the results at `path`, or `None` if the sidecar is missing or cannot be used. Adds
+/// a note about an unusable sidecar to `notes`.
 fn beside(path: &Path, on_damage: OnDamage, notes: &mut Vec<Note>) -> Result<Option<Sidecar>, OpenError> {
     let beside = sidecar_of(path);
     match Sidecar::read(&beside) {
@@ -331,7 +344,8 @@ fn beside(path: &Path, on_damage: OnDamage, notes: &mut Vec<Note>) -> Result<Opt
     }
 }
 
-/// Returns the complete rows of unfinished results without a journal. The last line may be incomplete.
+/// Returns a reader of the complete rows in an unfinished file. The reader leaves out an incomplete last
+/// line.
 fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
     let bytes = file.metadata()?.len();
     if format != Format::Csv && bytes > 0 {
@@ -348,10 +362,11 @@ fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
     Reader::of_text(file.take(begin + last), format)
 }
 
-/// Returns the rows of unfinished results up to the last checkpoint.
+/// Returns a reader of unfinished results that stops at the last checkpoint of the journal.
 ///
-/// All rows must match the journal. If damage is tolerated, the function returns all complete rows, and sets `sidecar`
-/// to `None` if the sidecar describes other rows.
+/// The rows must have the checksums that the journal records. If the checksums differ and `on_damage`
+/// tolerates damage, the reader returns all complete rows. If the sidecar is from a different sweep and
+/// damage is tolerated, the function sets `sidecar` to `None`.
 fn unfinished(
     path: &Path,
     format: Format,
@@ -420,7 +435,7 @@ pub enum Integrity {
 /// Checks the results at `path` completely: every byte of the file, and every row.
 ///
 /// # Errors
-/// - [`OpenError::Format`] if the ending of the name belongs to no format.
+/// - [`OpenError::Format`] if the file name has no supported ending, such as `.csv`.
 /// - [`OpenError::Read`] if the results cannot be read.
 /// - [`OpenError::Sidecar`] if the sidecar cannot be read, or is damaged.
 pub fn verify(path: &Path) -> Result<Integrity, OpenError> {

@@ -1,8 +1,9 @@
-//! Journal of unfinished results, which records the progress of a run: `<results>.journal`.
+//! The journal `<results>.journal` records the progress of a run whose results are unfinished.
 //!
-//! The first line of a journal identifies the run. Each line after the first line is a checkpoint. Each line begins
-//! with the checksum of the line. A line is added only when the rows that it counts are safe on disk, and lines are
-//! never changed. A crash may leave an incomplete line at the end, whose checksum is wrong.
+//! The first line of a journal identifies the run. Each line after the first line is a checkpoint. Each line
+//! begins with the checksum of the rest of the line. A checkpoint is added only when the rows that it counts
+//! are safe on disk. Lines are never changed. After a crash, the last line may be incomplete, so that its
+//! checksum is wrong.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -29,33 +30,35 @@ pub struct Header {
     format: u32,
     /// Start time of the first session, as RFC 3339 in UTC.
     pub started: String,
-    /// True if earlier results are kept until the new results are complete.
+    /// True if the new results replace earlier results. The earlier results are kept until the new results
+    /// are complete.
     pub replaces: bool,
-    /// Identity of the run's rows.
+    /// Build and settings that determine the rows of the run.
     pub identity: Identity,
 }
 
 impl Header {
-    /// Returns the first line of a run that starts now.
+    /// Returns the first line of the journal of a new run.
     pub fn new(started: String, replaces: bool, identity: Identity) -> Header {
         Header { format: FORMAT, started, replaces, identity }
     }
 }
 
-/// A state from which a run can be resumed: every line except the first.
+/// A state from which a run can be resumed. Each line of a journal except the first line contains a
+/// checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Total running time of all sessions of the sweep (s).
+    /// Time that all sessions of the sweep have taken together, in seconds.
     pub seconds: f64,
-    /// Number and checksum of the bytes written to the file of rows.
+    /// Number and checksum of all bytes before the checkpoint in the file of rows.
     pub file: FileSum,
     /// Summary of the rows before the checkpoint.
     pub summary: Summary,
 }
 
 impl Checkpoint {
-    /// Returns the checkpoint after the rows that `summary` counts, with the `file` that contains them, after
-    /// `seconds` of running.
+    /// Returns a checkpoint after the rows that `summary` counts. `file` is the checksum of the bytes of
+    /// these rows, and `seconds` is the duration of the sweep so far.
     pub fn new(seconds: f64, file: FileSum, mut summary: Summary) -> Checkpoint {
         // A checkpoint is one line, so reasons must not contain line ends.
         for invalid in &mut summary.invalid {
@@ -70,15 +73,16 @@ impl Checkpoint {
 pub struct JournalContents {
     /// First line.
     pub header: Header,
-    /// All lines after the first line, each with the number of bytes up to the end of the line.
+    /// Checkpoints, each with the number of bytes from the beginning of the journal to the end of the
+    /// checkpoint's line.
     pub checkpoints: Vec<(Checkpoint, u64)>,
-    /// Number of bytes up to the end of the first line.
+    /// Length of the first line of the journal in bytes.
     pub header_bytes: u64,
 }
 
-/// Parses the text of a journal up to the first incomplete line.
+/// Parses the text of a journal up to the first incomplete or damaged line.
 ///
-/// `None` if the first line is incomplete, or the journal has another format.
+/// Returns `None` if the first line is incomplete, or if the journal has the format of a different version.
 pub fn parse(text: &[u8]) -> Option<JournalContents> {
     let mut lines = text.split_inclusive(|&byte| byte == b'\n');
     let first = lines.next()?;
@@ -94,8 +98,8 @@ pub fn parse(text: &[u8]) -> Option<JournalContents> {
     Some(JournalContents { header, checkpoints, header_bytes })
 }
 
-/// Reads the journal at `path`. `None` if there is no journal, or if the first line of the journal is incomplete, in
-/// which case no row was written.
+/// Reads the journal at `path`. Returns `None` if there is no journal, or if [`parse`] returns `None`. If the
+/// first line of a journal is incomplete, the run has written no rows.
 ///
 /// # Errors
 /// The error of the operating system if the file cannot be read.
@@ -107,7 +111,7 @@ pub fn read(path: &Path) -> io::Result<Option<JournalContents>> {
     }
 }
 
-/// Returns the contents of a line, if the line is complete.
+/// Returns the contents of a line, or `None` if the line is incomplete or its checksum is wrong.
 fn read_line<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
     let line = str::from_utf8(line).ok()?.strip_suffix('\n')?;
     let (checksum, contents) = line.split_once(' ')?;
@@ -133,7 +137,7 @@ impl Journal {
         Ok(journal)
     }
 
-    /// Continues a journal after its first `bytes` and removes the rest of the journal.
+    /// Opens a journal to add checkpoints after its first `bytes` bytes, and removes all later bytes.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be opened or truncated.
@@ -161,18 +165,19 @@ impl Journal {
     }
 }
 
-/// The last checkpoint whose rows are in the file.
+/// The last checkpoint of a journal whose rows are all in the file of rows.
 pub(crate) struct IntactRows {
     pub(crate) checkpoint: Checkpoint,
-    /// Number of bytes of the journal up to the checkpoint.
+    /// Number of bytes from the beginning of the journal to the end of the checkpoint's line.
     pub(crate) journal_bytes: u64,
-    /// Hash of the rows up to the checkpoint.
+    /// Hash of all bytes before the checkpoint in the file of rows.
     pub(crate) hash: Xxh3Default,
-    /// Number of lost rows, which only later checkpoints count.
+    /// Number of rows that later checkpoints count, but that are missing in the file of rows.
     pub(crate) lost: u64,
 }
 
-/// Returns the last checkpoint up to which `file` contains the written bytes; `None` if `file` contains other bytes.
+/// Returns the last checkpoint of `journal` whose rows are all in `file`. Returns `None` if the bytes in
+/// `file` differ from the bytes that the run wrote.
 pub(crate) fn last_intact(mut file: &File, journal: &JournalContents) -> io::Result<Option<IntactRows>> {
     let mut hash = Xxh3Default::new();
     let mut intact = IntactRows {

@@ -1,10 +1,11 @@
-//! Lock of results, so that only one process writes to the results.
+//! Locks result files, so that only one process writes to a result file.
 //!
-//! The lock is a lock of the operating system on an empty file beside the results. The operating system releases the
-//! lock when the process ends. If a process is killed, its lock file remains without a lock.
+//! flap locks an empty file beside the results with a file lock of the operating system. The operating system
+//! releases the lock when the process ends. If a process is killed, its lock file remains, but the lock file
+//! is not locked.
 //!
-//! The results themselves are not locked. On Windows, a lock also keeps other handles from reading and writing the
-//! file. Some file systems cannot replace an open file.
+//! The results themselves are not locked. On Windows, a locked file cannot be read or written through other
+//! file handles. Some file systems cannot replace an open file.
 
 use std::fs::{self, File, TryLockError};
 use std::io;
@@ -12,7 +13,7 @@ use std::path::{Path, PathBuf};
 
 use super::disk;
 
-/// A lock of this process. The lock file is removed when the lock is dropped.
+/// A lock that this process has on a result file. When the lock is dropped, the lock file is removed.
 #[derive(Debug)]
 pub struct Lock {
     file: File,
@@ -21,10 +22,12 @@ pub struct Lock {
 }
 
 impl Lock {
-    /// Locks the file at `path`, which is created if it is missing. Returns `None` if another process holds the lock.
+    /// Locks the file at `path`. If the file is missing, the function creates it. Returns `None` if another
+    /// process has locked the file.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::AlreadyExists`] if the name is not [free](disk::is_free).
+    /// - [`io::ErrorKind::AlreadyExists`] if a file with contents, a folder or a link has this name: see
+    ///   [`disk::is_free`].
     /// - The error of the operating system if the file cannot be created.
     pub(crate) fn take(path: &Path) -> io::Result<Option<Lock>> {
         loop {
@@ -46,8 +49,8 @@ impl Lock {
         }
     }
 
-    /// Returns the reason for a failed lock: the file system does not support locks. Without locks, another run that
-    /// writes to the results is not detected.
+    /// If the file system does not support locks, returns the error of the operating system. Without a lock,
+    /// flap does not detect a second run that writes to the same results.
     pub fn unlocked(&self) -> Option<&io::Error> {
         self.unlocked.as_ref()
     }

@@ -1,4 +1,4 @@
-//! MAT files of version 5, which MATLAB, Octave and `scipy.io.loadmat` read.
+//! Writes MAT files of version 5. MATLAB, Octave and `scipy.io.loadmat` can read these files.
 //!
 //! Variables in the MAT file are not compressed. Source: The MathWorks, MAT-File Format, chapter 1 (Level 5 MAT-File
 //! Format).
@@ -18,11 +18,11 @@ pub enum Variable {
     Matrix(DMatrix<f64>),
     /// Text: a row of characters.
     Text(String),
-    /// Texts, written as a cell array with one row.
+    /// Several texts, which are written as a cell array with one row.
     Texts(Vec<String>),
 }
 
-/// Codes of the types of data elements in a MAT file.
+/// Codes of the data types in a MAT file.
 const INT8: u32 = 1;
 const INT32: u32 = 5;
 const UINT32: u32 = 6;
@@ -35,13 +35,14 @@ const CELL: u32 = 1;
 const CHAR: u32 = 4;
 const NUMBERS: u32 = 6;
 
-/// Length of the text of the header.
+/// Length in bytes of the text at the beginning of a MAT file.
 const TEXT_LENGTH: usize = 116;
 
-/// Writes the variables with their names as a MAT file.
+/// Writes a MAT file that contains the given variables with their names.
 ///
 /// # Errors
-/// The error of the target, or [`io::ErrorKind::InvalidInput`] if a variable has 4 GiB or more.
+/// Returns the error of writing to `target`, or [`io::ErrorKind::InvalidInput`] if a variable has 4 GiB or
+/// more.
 pub fn write(variables: &[(&str, Variable)], target: &mut dyn Write) -> io::Result<()> {
     let mut header = b"MATLAB 5.0 MAT-file, created by flap".to_vec();
     header.resize(TEXT_LENGTH, b' ');
@@ -56,7 +57,7 @@ pub fn write(variables: &[(&str, Variable)], target: &mut dyn Write) -> io::Resu
     Ok(())
 }
 
-/// Returns a variable as a data element.
+/// Converts a variable into the bytes of a data element of a MAT file.
 fn array(name: &str, variable: &Variable) -> io::Result<Vec<u8>> {
     match variable {
         Variable::Number(number) => numbers(name, &DMatrix::from_element(1, 1, *number)),
@@ -79,7 +80,7 @@ fn array(name: &str, variable: &Variable) -> io::Result<Vec<u8>> {
     }
 }
 
-/// Returns a matrix as a data element.
+/// Converts a matrix into the bytes of a data element of a MAT file.
 fn numbers(name: &str, matrix: &DMatrix<f64>) -> io::Result<Vec<u8>> {
     let mut content = head(name, NUMBERS, [matrix.nrows(), matrix.ncols()])?;
     // Columns are contiguous, as in nalgebra.
@@ -87,7 +88,7 @@ fn numbers(name: &str, matrix: &DMatrix<f64>) -> io::Result<Vec<u8>> {
     element(MATRIX, &content)
 }
 
-/// Returns class, dimensions and name of an array.
+/// Returns the bytes that describe an array: its class, its dimensions and its name.
 fn head(name: &str, class: u32, dimensions: [usize; 2]) -> io::Result<Vec<u8>> {
     let mut head = element(UINT32, &bytes([class, 0], u32::to_le_bytes))?;
     let dimensions = [size(dimensions[0])?, size(dimensions[1])?];
@@ -96,7 +97,8 @@ fn head(name: &str, class: u32, dimensions: [usize; 2]) -> io::Result<Vec<u8>> {
     Ok(head)
 }
 
-/// Returns a data element: type, number of bytes, and the bytes, up to a multiple of eight bytes.
+/// Returns a data element: the type, the number of bytes, and the bytes. Zeros extend the element to a
+/// multiple of eight bytes.
 fn element(kind: u32, data: &[u8]) -> io::Result<Vec<u8>> {
     let length = size(data.len())?;
     // Up to four bytes are in the tag.

@@ -1,4 +1,5 @@
-//! Merges the shards of a sweep into one file, which equals the file of a sweep on one machine.
+//! Merges the shards of a sweep into one file. The merged file equals the result file of the same sweep on
+//! one machine.
 
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet, BinaryHeap};
@@ -29,13 +30,14 @@ impl Part {
     }
 }
 
-/// Error of shards that cannot be merged.
+/// Reason why shards cannot be merged.
 #[derive(Debug, thiserror::Error)]
 pub enum MergeError {
-    /// The parts are not all shards of one sweep, or contain a shard twice. The error contains a line for each mistake.
+    /// Shards are missing, unfinished, from different sweeps, or given twice. The error contains one line of
+    /// text for each mistake.
     #[error("{}", .0.join("\n"))]
     Parts(Vec<String>),
-    /// The parts were computed by several builds of flap. The error contains the first shard of each build.
+    /// Different builds of flap computed the shards. The error contains the first shard of each build.
     #[error("the shards were computed by several builds of flap, whose rows may differ: {}", .0.join(", "))]
     Builds(Vec<String>),
     /// A shard cannot be read.
@@ -51,7 +53,7 @@ pub enum MergeError {
     Write(#[from] io::Error),
 }
 
-/// Treatment of shards that several builds of flap computed.
+/// Rule for shards that different builds of flap have computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnBuilds {
     /// Shards of different builds are rejected, because rows of different builds may differ.
@@ -60,13 +62,13 @@ pub enum OnBuilds {
     Mix,
 }
 
-/// Checks that `parts` contain each complete shard of one sweep once.
+/// Checks that `parts` contains every shard of one sweep exactly once, and that every shard is complete.
 ///
-/// No model is run, so another build of flap may have computed the shards.
+/// The check computes no rows, so a different build of flap may have computed the shards.
 ///
 /// # Errors
 /// - [`MergeError::Parts`] with all mistakes.
-/// - [`MergeError::Builds`] if there are no mistakes, but the parts come from several builds and `on_builds` is
+/// - [`MergeError::Builds`] if different builds of flap computed the parts, and `on_builds` is
 ///   [`OnBuilds::Refuse`].
 pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
     let mut problems = Vec::new();
@@ -119,15 +121,18 @@ pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
     Ok(())
 }
 
-/// Returns the identity that the rows of all shards share, without shard and build.
+/// Returns the identity of the rows of a shard without the shard and the build. The result is equal for all
+/// shards of one sweep.
 fn shared(sidecar: &Sidecar) -> Identity {
     let (flap, build) = (String::new(), String::new());
     Identity { flap, build, selection: Selection::All.to_string(), ..sidecar.identity.clone() }
 }
 
-/// Returns the sidecar of all `parts` together, without checksums; `None` if there are no parts.
+/// Returns the sidecar for the merged rows of all `parts`, without checksums. Returns `None` if `parts` is
+/// empty.
 ///
-/// The result equals the sidecar of one sweep on one machine, except that the result lists all versions and builds.
+/// The sidecar resembles the sidecar of a sweep on one machine, but lists the versions and builds of all
+/// shards. The numbers of threads and the durations of the shards are added up.
 pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
     let sidecars = || parts.iter().map(|part| &part.sidecar);
     let all = |name: fn(&Sidecar) -> &String| {
@@ -153,10 +158,11 @@ pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
     Some(whole)
 }
 
-/// Writes the rows of `parts` to `to` in the order of their points.
+/// Writes the rows of all `parts` into the file `to`, in the order of the points.
 ///
-/// `parts` must have passed [`check`]. `whole` is the [`sidecar`] of all `parts` together. `readers` read the parts, in
-/// the same order. If a reader is tolerant, rows that do not belong to the shard are left out.
+/// `parts` must have passed [`check`]. `whole` is the result of [`sidecar`] for all `parts`. `readers`
+/// contains one reader for each part, in the order of `parts`. A tolerant reader leaves out rows that are not
+/// rows of its shard.
 ///
 /// # Errors
 /// - [`MergeError::Read`] if a shard cannot be read, or does not contain the rows that its sidecar records.

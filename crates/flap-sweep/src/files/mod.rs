@@ -1,8 +1,11 @@
-//! Result files: formats, and the files beside results that record the origin of the rows and the progress of a run.
+//! Reads and writes result files. Files beside a result file record the origin of its rows and the progress
+//! of the run.
 //!
-//! `beside` names the files beside results, `disk` writes files, and [`results`] reads and writes rows. [`journal`] and
-//! [`sidecar`] are the files beside results, and `replacement` removes the files that flap wrote. `output` opens a
-//! result file and locks it, a [`session`] writes it, [`integrity`] checks it, and a [`job`] runs a whole plan.
+//! The module `beside` contains the names of the files beside results, `disk` writes files, and [`results`]
+//! reads and writes rows. The modules [`journal`] and [`sidecar`] read and write the files beside results,
+//! and `replacement` replaces and removes results. The module `output` opens and locks a result file,
+//! [`session`] writes rows into the file, and [`integrity`] checks the file. The module [`job`] writes the
+//! results of a whole plan.
 
 pub mod beside;
 pub mod csv_sink;

@@ -1,4 +1,4 @@
-//! Wing outlines from CSV files.
+//! Reads the outline of a wing from a CSV file.
 
 use std::path::Path;
 
@@ -7,27 +7,27 @@ use flap_core::aero::{Outline, Station};
 use crate::input::{self, MOST_BYTES};
 use crate::notation::{UserError, units};
 
-/// Column names, in the order of [`Station`].
+/// Names of the columns, in the order of the fields of [`Station`].
 const COLUMNS: [&str; 3] = ["span", "leading_edge", "trailing_edge"];
 
 const HELP: &str = "the file has the columns span, leading_edge and trailing_edge, each with a unit in brackets: \
      `span [mm],leading_edge [mm],trailing_edge [mm]`, distances from the root, ahead of the hinge's axis, and behind it";
 
-/// Reads the outline in a CSV file with the columns `span`, `leading_edge` and `trailing_edge`. Each heading has its
-/// unit in brackets.
+/// Reads the outline of a wing from a CSV file with the columns `span`, `leading_edge` and `trailing_edge`.
+/// Each heading ends with the unit of the column in brackets, such as `span [mm]`.
 ///
 /// # Errors
-/// An error if the file cannot be read or contains no outline.
+/// Returns an error if the file cannot be read or does not describe an outline.
 pub fn read(path: &Path) -> Result<Outline, UserError> {
     let text = input::text(path, MOST_BYTES)
         .map_err(|cause| UserError { message: format!("{}: {cause}", path.display()), help: None })?;
     parse(path, &text)
 }
 
-/// Parses an outline from the text of a CSV file. `path` is the name of the file in messages.
+/// Parses the outline of a wing from the text of a CSV file. Messages about mistakes contain `path`.
 ///
 /// # Errors
-/// An error if the text contains no outline.
+/// Returns an error if the text does not describe an outline.
 pub fn parse(path: &Path, text: &str) -> Result<Outline, UserError> {
     let mut reader =
         csv::ReaderBuilder::new().trim(csv::Trim::All).comment(Some(b'#')).from_reader(text.as_bytes());
@@ -64,7 +64,8 @@ pub fn parse(path: &Path, text: &str) -> Result<Outline, UserError> {
     Outline::new(stations).map_err(|cause| refused(format!("{}: {cause}", path.display())))
 }
 
-/// Returns position and unit of the column called `name`. The unit is empty if the heading has no unit.
+/// Returns the position and the unit of the column called `name`. The unit is empty if the heading has no
+/// unit.
 fn find(headings: &csv::StringRecord, name: &str) -> Option<(usize, String)> {
     headings.iter().enumerate().find_map(|(place, heading)| {
         let (found, unit) = heading.split_once('[').unwrap_or((heading, ""));

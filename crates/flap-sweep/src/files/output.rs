@@ -1,5 +1,5 @@
-//! Opens and locks result files, or replaces them as a whole. Existing files are overwritten only at the request of the
-//! caller.
+//! Opens and locks result files, or replaces whole result files. Existing files are overwritten only at the
+//! request of the caller.
 
 use std::fs::{self, File, OpenOptions};
 use std::io;
@@ -13,7 +13,7 @@ use super::results::Format;
 use super::sidecar::{Sidecar, State};
 use super::{disk, replacement};
 
-/// Error of a result file that cannot be created.
+/// Reason why a result file cannot be created.
 #[derive(Debug, thiserror::Error)]
 pub enum CreateError {
     /// A file with the name of the results exists.
@@ -22,7 +22,8 @@ pub enum CreateError {
     /// The file is the unfinished result of an interrupted sweep.
     #[error("{} is the unfinished result of an interrupted sweep", .0.display())]
     Unfinished(PathBuf),
-    /// Another file has the name of a file that flap would write beside the results.
+    /// A file exists that flap would overwrite when it writes its files beside the results, such as the
+    /// sidecar.
     #[error("{} exists already: writing {} would overwrite it", path.display(), results.display())]
     InTheWay {
         /// The file.
@@ -38,7 +39,7 @@ pub enum CreateError {
     Io {
         /// The file.
         path: PathBuf,
-        /// The error of the operating system.
+        /// Error that the operating system reported.
         source: io::Error,
     },
 }
@@ -53,18 +54,20 @@ impl CreateError {
     }
 }
 
-/// Opens a result file for writing from its beginning.
+/// Opens a result file for writing. The first byte is written at the beginning of the file.
 ///
-/// Returns the file, and its lock against other runs that write to the file; `None` for a device or a pipe.
+/// Returns the file and its lock. While the file is locked, other runs cannot write to it. Devices and pipes
+/// have no lock.
 ///
-/// A file with contents is an error. If `overwrite` is true, the file is opened and the contents are kept. The lock of
-/// the file keeps a second run from writing to the same file. Devices and pipes are neither rejected nor locked.
+/// If the file has contents and `overwrite` is false, the function returns an error. If the file has contents
+/// and `overwrite` is true, the function opens the file and keeps the contents.
 ///
 /// # Errors
-/// - [`CreateError::Exists`] if the file has contents.
-/// - [`CreateError::Unfinished`] if the file or its replacement has a journal.
-/// - [`CreateError::InTheWay`] if there is a sidecar without rows, or a file of another program with the name of the
-///   lock file. If `overwrite` is true, only a file of another program with the name of the lock file is an error.
+/// - [`CreateError::Exists`] if the file has contents and `overwrite` is false.
+/// - [`CreateError::Unfinished`] if the file or its replacement has a journal and `overwrite` is false.
+/// - [`CreateError::InTheWay`] if a file of another program has the name of the sidecar or of the lock file.
+///   If `overwrite` is false, a sidecar is an error too, except the sidecar of a run that was killed before
+///   its first row.
 /// - [`CreateError::Busy`] if another run has locked the file.
 /// - [`CreateError::Io`] if the file cannot be opened.
 pub fn create(path: &Path, overwrite: bool) -> Result<(File, Option<Lock>), CreateError> {
@@ -88,17 +91,19 @@ pub fn create(path: &Path, overwrite: bool) -> Result<(File, Option<Lock>), Crea
     Ok((open()?, Some(lock)))
 }
 
-/// Checks that there is no sidecar, unless `may` allows that the sidecar is replaced.
+/// Returns an error if a file has the name of the sidecar. If `may` is true, the sidecar may be replaced, so
+/// there is no error.
 fn check_sidecar(results: &Path, may: bool) -> Result<(), CreateError> {
     let sidecar = sidecar_of(results);
     if may || !disk::is_taken(&sidecar) { Ok(()) } else { Err(CreateError::in_the_way(sidecar, results)) }
 }
 
-/// Checks that no files with contents have the names of the journal and of the unfinished rows beside the empty
-/// results.
+/// Checks that flap can create the journal and the file of unfinished rows beside the results without
+/// overwriting a file.
 ///
 /// # Errors
-/// [`CreateError::InTheWay`] if a file with such a name has contents.
+/// [`CreateError::InTheWay`] if a file with contents has the name of the journal or of the file of unfinished
+/// rows.
 pub(crate) fn check_beside(results: &Path, format: Format) -> Result<(), CreateError> {
     let rows = rows_of(results, format);
     for path in [journal_of(results), rows] {
@@ -109,20 +114,20 @@ pub(crate) fn check_beside(results: &Path, format: Format) -> Result<(), CreateE
     Ok(())
 }
 
-/// Opens a result file that an earlier run has begun, for reading and writing from its beginning, and locks it as
-/// [`create`] does.
+/// Opens a result file that an earlier run has begun, for reading and writing, and locks the file.
 ///
 /// If the file was removed, the function creates the file again.
 ///
 /// # Errors
-/// The errors of [`lock`], and [`CreateError::Io`] if the file cannot be opened.
+/// Returns the errors of [`lock`], or [`CreateError::Io`] if the file cannot be opened.
 pub(crate) fn reopen(path: &Path) -> Result<(File, Lock), CreateError> {
     let lock = lock(path)?;
     let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);
     Ok((opened.map_err(CreateError::io(path))?, lock))
 }
 
-/// Time for which [`lock`] waits for another process. A killed process may hold its lock for a moment.
+/// Time for which [`lock`] waits if another process has locked the results. The lock of a killed process may
+/// remain for a moment.
 const WAIT: Duration = Duration::from_secs(1);
 
 /// Locks the results at `path` for this process. The results need not exist.
@@ -160,14 +165,14 @@ pub(crate) fn remove_unused_locks(path: &Path) {
     }
 }
 
-/// Writes the file at `results`, which [`create`] opened, as a whole. An earlier file remains until the new file is
-/// complete.
+/// Replaces the whole file at `results`, which [`create`] has opened. The earlier file remains until the new
+/// file is complete.
 ///
-/// `write` returns the sidecar of the results. After a crash, the earlier or the new results exist, possibly without
-/// a sidecar.
+/// The function `write` writes the new file, and returns the sidecar of the results. After a crash, either
+/// the earlier or the new results exist, possibly without a sidecar.
 ///
 /// # Errors
-/// The error of `write` or of the operating system.
+/// Returns the error of `write` or of the operating system.
 pub fn replace<E: From<io::Error>>(
     results: &Path,
     write: impl FnOnce(File) -> Result<Option<Sidecar>, E>,

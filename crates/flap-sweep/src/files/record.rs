@@ -1,4 +1,4 @@
-//! Measured records: CSV tables of numbers over time.
+//! Reads measured data from CSV tables with numbers over time.
 
 use std::collections::HashSet;
 use std::io;
@@ -12,16 +12,17 @@ use crate::files::csv_sink::cause;
 use crate::input::{self, MOST_BYTES};
 use crate::notation::text;
 
-/// A quantity in a record.
+/// A measured quantity, such as the time or the stroke.
 #[derive(Clone, Copy, Debug)]
 pub struct Quantity<'h> {
-    /// Possible headings of the quantity's column, with the factors to SI units.
+    /// Possible headings of the column of this quantity, each with the factor that converts the numbers to SI
+    /// units.
     pub headings: &'h [(&'h str, f64)],
-    /// Largest accepted magnitude, in SI units. With larger values, rates and forces would overflow.
+    /// Largest accepted magnitude, in SI units. With larger numbers, velocities and forces could overflow.
     pub most: f64,
 }
 
-/// A table of numbers, by column.
+/// A table of numbers, which are stored column by column.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Record {
     /// Name of the file, for messages.
@@ -50,10 +51,12 @@ pub enum RecordError {
 }
 
 impl Record {
-    /// Reads a CSV file with a line of headings. Blanks around headings and numbers are ignored.
+    /// Reads a CSV file whose first line contains the headings. Blanks around headings and numbers are
+    /// ignored.
     ///
     /// # Errors
-    /// - [`RecordError::Read`] if the file cannot be read, or a line has more or fewer cells than there are headings.
+    /// - [`RecordError::Read`] if the file cannot be read, or if a line has more or fewer cells than the line
+    ///   of headings.
     /// - [`RecordError::Wrong`] if two columns have the same heading, or a cell is not a finite number.
     pub fn read(path: &Path) -> Result<Record, RecordError> {
         let name = path.display().to_string();
@@ -63,7 +66,7 @@ impl Record {
         }
     }
 
-    /// Parses the text of a file with a record. `name` is the name of the file in messages.
+    /// Parses measured data from the text of a CSV file. `name` is the name of the file in messages.
     ///
     /// # Errors
     /// See [`Record::read`].
@@ -87,7 +90,8 @@ impl Record {
         Ok(Record { name, headings, columns })
     }
 
-    /// Returns a record of columns in memory, each with a heading. `name` is the name of the record in messages.
+    /// Returns a record with the given columns, each with a heading and numbers. `name` is the name of the
+    /// record in messages.
     ///
     /// # Errors
     /// [`RecordError::Wrong`] if columns differ in length, or a number is not finite.
@@ -109,12 +113,13 @@ impl Record {
         Ok(Record { name: name.to_owned(), headings, columns })
     }
 
-    /// Returns the column of a quantity in SI units. If several columns of the quantity agree, returns the first of
-    /// these columns.
+    /// Returns the numbers of a quantity in SI units. If several columns contain the quantity, such as
+    /// `stroke_rad` and `stroke_deg`, their numbers must agree.
     ///
     /// # Errors
-    /// - [`RecordError::Missing`] if no column has the requested quantity.
-    /// - [`RecordError::Wrong`] if a number in the column is too large, or two columns differ.
+    /// - [`RecordError::Missing`] if no column contains the requested quantity.
+    /// - [`RecordError::Wrong`] if a number in the column is too large, or if two columns contain different
+    ///   numbers for the quantity.
     pub fn column(&self, quantity: &Quantity<'_>) -> Result<Vec<f64>, RecordError> {
         let found = quantity.headings.iter().filter_map(|(name, factor)| {
             let index = self.headings.iter().position(|heading| heading == name)?;
@@ -152,7 +157,8 @@ impl Record {
         Ok(column)
     }
 
-    /// Returns the points called `name` in every image, from the columns `NAME_x` and `NAME_y`.
+    /// Returns the coordinates of the tracked point `name` in every image. The columns `NAME_x` and `NAME_y`
+    /// contain the coordinates.
     ///
     /// # Errors
     /// See [`Record::column`].
@@ -163,11 +169,12 @@ impl Record {
         Ok(coordinate("x")?.into_iter().zip(coordinate("y")?).map(|(x, y)| [x, y]).collect())
     }
 
-    /// Returns a quantity as a smooth function of the record's time.
+    /// Returns a smooth function of time through the measured values of a quantity.
     ///
     /// # Errors
-    /// - [`RecordError::Wrong`] if two samples are too close in time, or the samples define no smooth function.
-    /// - The errors of [`Record::column`], for the time and for the quantity.
+    /// - [`RecordError::Wrong`] if two samples are too close in time, or if the samples do not define a
+    ///   smooth function.
+    /// - The errors of [`Record::column`] for the column of the time and for the column of the quantity.
     pub fn samples(&self, quantity: &Quantity<'_>, repeat: Repeat) -> Result<Samples, RecordError> {
         let (times, values) = (self.column(&TIME)?, self.column(quantity)?);
         let duration = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
@@ -182,8 +189,8 @@ impl Record {
         Samples::new(&times, &values, repeat).map_err(|error| self.wrong(&error.to_string()))
     }
 
-    /// Returns a warning if the spline through samples of the record exceeds the range of the samples. `unit` follows
-    /// the numbers in the warning.
+    /// Returns a warning if the spline through the samples has values far outside the range of the samples.
+    /// In the warning, the text `unit` stands after the numbers.
     pub fn overshoot(&self, samples: &Samples, unit: &str) -> Option<String> {
         let ([low, high], [from, to]) = (samples.range(), samples.sample_range());
         ((from - low).max(high - to) > OVERSHOOT * (to - from)).then(|| {
@@ -195,13 +202,14 @@ impl Record {
         })
     }
 
-    /// Returns stroke and pitch of a filmed wing over the record's time, and the wing's centre of rotation.
+    /// Returns the stroke and the pitch of a filmed wing over time, and the centre of rotation of the wing.
     ///
-    /// The wing has the points `root` and `tip` in every image. The pitch requires `chord` (in the unit of the points)
-    /// and the point `edge`.
+    /// The record must contain the tracked points `root` and `tip` in every image. To compute the pitch, the
+    /// function also needs the point `edge` and the length `chord` in the unit of the points.
     ///
     /// # Errors
-    /// - [`RecordError::Wrong`] if the points have no centre of rotation, or the chord appears longer than `chord`.
+    /// - [`RecordError::Wrong`] if the points have no centre of rotation, or if the chord in an image is
+    ///   longer than `chord`.
     /// - The errors of [`Record::column`].
     pub fn tracked(&self, chord: Option<f64>) -> Result<(Trajectory, [f64; 2]), RecordError> {
         let times = self.column(&TIME)?;
@@ -234,16 +242,18 @@ fn not_a_number(name: &str, line: u64, heading: &str, cell: &str) -> RecordError
     RecordError::Wrong(format!("{name}, line {line}, column {heading}: `{cell}` is not a number"))
 }
 
-/// Smallest time between two samples, in seconds and relative to the duration.
+/// Smallest accepted time between two samples, relative to the duration of the record. If the record is
+/// shorter than 1 s, the smallest time is this number of seconds.
 const LEAST_STEP: f64 = 1e-12;
 
-/// Largest excess of the spline over the range of the samples without a warning, as a fraction of the range.
+/// If the spline leaves the range of the samples by more than this fraction of the range, flap prints a
+/// warning.
 const OVERSHOOT: f64 = 0.02;
 
-/// Largest relative difference of equal numbers in two units, relative to the column's largest number.
+/// Largest difference between two numbers that count as equal, relative to the largest number of the column.
 const SAME: f64 = 1e-6;
 
-/// Returns the headings of a file as text for a message.
+/// Returns the part of a message that lists the headings of a file.
 fn known(headings: &[String]) -> String {
     if headings.iter().all(String::is_empty) {
         "the file has no columns".to_owned()
@@ -252,7 +262,7 @@ fn known(headings: &[String]) -> String {
     }
 }
 
-/// Returns the first repeated heading.
+/// Returns the first heading that occurs twice; `None` if all headings differ.
 pub(crate) fn repeated(headings: &[String]) -> Option<&String> {
     let mut seen = HashSet::new();
     headings.iter().find(|heading| !heading.is_empty() && !seen.insert(*heading))
@@ -272,7 +282,7 @@ pub const PITCH: Quantity<'_> =
 /// Waveform of unit amplitude.
 pub const WAVE: Quantity<'_> = Quantity { headings: &[("wave", 1.0)], most: 1e6 };
 
-/// Largest coordinate of a point in an image, in any unit.
+/// Largest accepted coordinate of a point in an image. The unit of the coordinates is arbitrary.
 const COORDINATE: f64 = 1e12;
 
 const RADIANS: f64 = core::f64::consts::PI / 180.0;

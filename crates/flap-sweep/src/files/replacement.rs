@@ -1,16 +1,19 @@
-//! Files beside results that flap wrote. The functions of this module remove and replace only files that flap wrote.
+//! Removes and replaces result files and the files beside them. The functions of this module change only
+//! files that flap wrote.
 //!
-//! A journal is recognised by the checksum of its first line, and a sidecar is recognised by its entries. The rows of
-//! an unfinished Parquet file belong to the journal in the same folder. flap begins a journal only if the name of these
-//! rows is free.
+//! flap recognises its own journals by the checksum of the first line, and its own sidecars by their entries.
+//! If a journal exists, flap also wrote the file `<results>.part`, because flap creates a journal only if
+//! this name is free.
 //!
-//! With `--restart`, the earlier results keep their names until the new results are complete. Until the new results of
-//! `rows.csv` are complete, they are in `rows.new.csv`, with a sidecar and a journal of this name. The journal records
-//! that the new results are a replacement, so flap never mistakes another file of this name for a replacement.
+//! With `--restart`, the earlier results keep their names until the new results are complete. Until the new
+//! results of `rows.csv` are complete, flap writes them to `rows.new.csv`, with a sidecar and a journal
+//! beside this file. The journal records that `rows.new.csv` is a replacement, so flap never treats a user's
+//! file with this name as a replacement.
 //!
-//! Results without a sidecar are reported as not verified, not as damaged. [`commit`] therefore removes the earlier
-//! sidecar, renames the rows, and then writes the new sidecar. If the process is killed at any time, the next call
-//! completes the replacement.
+//! If the sidecar is missing, flap reports the results as unverified. If the sidecar belongs to different
+//! rows, flap reports damage. The function [`commit`] therefore removes the earlier sidecar, renames the
+//! rows, and then writes the new sidecar. If the process is killed during a replacement, the next call of
+//! [`commit`] completes the replacement.
 
 use std::fs;
 use std::io::{self, Write};
@@ -21,7 +24,7 @@ use super::results::Format;
 use super::sidecar::Sidecar;
 use super::{disk, journal};
 
-/// Returns true if there is a sidecar beside the results, damaged or not.
+/// Returns true if there is a sidecar beside the results, even if the sidecar is damaged.
 pub(crate) fn has_sidecar(results: &Path) -> bool {
     Sidecar::read_damaged(&sidecar_of(results)).is_ok()
 }
@@ -29,13 +32,13 @@ pub(crate) fn has_sidecar(results: &Path) -> bool {
 /// Returns true if there is a journal beside the results.
 ///
 /// # Errors
-/// The error of the operating system if a file of this name cannot be read.
+/// The error of the operating system if a file with the name of the journal cannot be read.
 pub(crate) fn has_journal(results: &Path) -> io::Result<bool> {
     Ok(journal::read(&journal_of(results))?.is_some())
 }
 
-/// Removes the rows of an unfinished Parquet file, then the journal. If the process is killed between the removals, the
-/// journal still shows that flap wrote the rows.
+/// Removes the file `<results>.part` with the rows of an unfinished Parquet file, then the journal. If the
+/// process is killed before it removes the journal, the journal still shows that flap wrote these files.
 ///
 /// # Errors
 /// The error of the operating system if a file cannot be removed.
@@ -49,7 +52,7 @@ pub(crate) fn remove_progress(results: &Path) -> io::Result<()> {
     Ok(())
 }
 
-/// Removes the sidecar, the rows of an unfinished Parquet file, and the journal.
+/// Removes the sidecar, the file `<results>.part` of an unfinished Parquet file, and the journal.
 ///
 /// # Errors
 /// The error of the operating system if a file cannot be removed.
@@ -60,33 +63,34 @@ pub(crate) fn remove_companions(results: &Path) -> io::Result<()> {
     remove_progress(results)
 }
 
-/// Returns the unfinished replacement of the results at `results`, such as `rows.new.csv`; `None` if there is no
-/// replacement.
+/// Returns the path of the unfinished file that will replace `results`, such as `rows.new.csv`. Returns
+/// `None` if there is no such file.
 pub fn unfinished(results: &Path) -> Option<PathBuf> {
     let new = of(results);
     let past = journal::read(&journal_of(&new)).ok()??;
     past.header.replaces.then_some(new)
 }
 
-/// Returns the results that `flap results resume` continues: the unfinished replacement of `results`, or `results` if
-/// there is no replacement.
+/// Returns the path of the results that `flap results resume` continues. The path is the unfinished
+/// replacement of `results` if there is one, and otherwise `results`.
 pub fn to_resume(results: &Path) -> PathBuf {
     unfinished(results).filter(|new| sidecar_of(new).exists()).unwrap_or_else(|| results.to_owned())
 }
 
-/// Returns the path of a replacement. The replacement is in the folder of the rows, also if `results` is a link to the
-/// rows.
+/// Returns the path of the new file that will replace `results`, such as `rows.new.csv`. If `results` is a
+/// link, the new file is in the folder of the link's target.
 pub(crate) fn of(results: &Path) -> PathBuf {
     Format::with_word(&disk::target(results), "new")
 }
 
-/// Returns true if only the journal of the replacement `new` is left. In this case, the replacement has replaced the
-/// earlier results, or was discarded.
+/// Returns true if the replacement `new` has a journal, but neither rows nor a sidecar. Such a journal
+/// remains after the replacement of the results, or after the replacement was discarded.
 pub(crate) fn is_over(new: &Path, format: Format) -> bool {
     !disk::is_taken(&sidecar_of(new)) && disk::is_empty(new) && disk::is_empty(&rows_of(new, format))
 }
 
-/// Discards the unfinished replacement of `results`, if there is a replacement.
+/// Removes the unfinished replacement of `results` with its sidecar and its journal, if there is a
+/// replacement.
 ///
 /// # Errors
 /// The error of the operating system if a file cannot be removed.
@@ -97,7 +101,7 @@ pub(crate) fn discard(results: &Path) -> io::Result<()> {
     remove_companions(&new)
 }
 
-/// Replaces `results` by their complete replacement with its sidecar.
+/// Replaces the file `results` and its sidecar by the complete new file and the new sidecar.
 ///
 /// # Errors
 /// The error of the operating system if a file cannot be renamed, written or removed. After an error, the next call

@@ -1,4 +1,4 @@
-//! Selection of points of earlier results that are run again.
+//! Selects the points of earlier results that are computed again.
 
 use flap_core::simulate::Status;
 
@@ -6,7 +6,7 @@ use crate::files::results::{Checked, Reader, RowCheck, RowsError};
 use crate::plan::Plan;
 use crate::plan::selection::MOST_LISTED;
 
-/// Selection of rows that are computed again.
+/// Criteria that select the rows to compute again.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Wanted {
     /// Selects rows with one of these statuses.
@@ -15,13 +15,13 @@ pub struct Wanted {
     pub accuracy: Option<f64>,
 }
 
-/// Error if no points can be selected for a rerun.
+/// Reason why no points can be selected for a rerun.
 #[derive(Debug, thiserror::Error)]
 pub enum RerunError {
-    /// The rows cannot be read, or do not belong to the plan.
+    /// The rows cannot be read, or are not the rows of the plan.
     #[error(transparent)]
     Rows(#[from] RowsError),
-    /// The rows have no error estimate.
+    /// The rows have no column `error_estimate`.
     #[error("the rows have no column `error_estimate`: their grid leaves it out of `columns` in [output]")]
     NoEstimate,
     /// More than [`MOST_LISTED`] points are selected.
@@ -30,13 +30,14 @@ pub enum RerunError {
 }
 
 impl Wanted {
-    /// Returns the kinds of rows in words: statuses, and `inaccurate`.
+    /// Returns words for the selected kinds of rows: the names of statuses, and `inaccurate` for rows with a
+    /// large `error_estimate`.
     pub fn words(&self) -> Vec<String> {
         let inaccurate = self.accuracy.map(|_| "inaccurate");
         self.statuses.iter().map(|status| status.name()).chain(inaccurate).map(str::to_owned).collect()
     }
 
-    /// Returns true if the selection contains a row with the given cells.
+    /// Returns true if a row with the status `status` and the error estimate `estimate` is selected.
     fn includes(&self, status: Option<&str>, estimate: Option<&str>) -> bool {
         let estimate = estimate.and_then(|cell| cell.parse::<f64>().ok());
         self.statuses.iter().any(|wanted| status == Some(wanted.name()))
@@ -44,13 +45,14 @@ impl Wanted {
     }
 }
 
-/// Returns the indices of the `wanted` rows, in ascending order.
+/// Returns the indices of the points whose rows meet the criteria `wanted`, in ascending order.
 ///
-/// The results must belong to `plan`. `rows` is the number of written rows, if known.
+/// The rows must be the rows of `plan`. `rows` is the number of rows that flap wrote, if known.
 ///
 /// # Errors
-/// - [`RerunError::Rows`] if the rows cannot be read, or do not belong to the plan.
-/// - [`RerunError::NoEstimate`] if inaccurate rows are selected, and the rows have no error estimate.
+/// - [`RerunError::Rows`] if the rows cannot be read, or are not the rows of the plan.
+/// - [`RerunError::NoEstimate`] if `wanted` selects inaccurate rows, but the rows have no column
+///   `error_estimate`.
 /// - [`RerunError::TooMany`] if more than [`MOST_LISTED`] points are selected.
 pub fn points(
     reader: &mut Reader,

@@ -1,12 +1,13 @@
-//! Access of a run to its result file. A session writes rows and checkpoints, and continues earlier runs.
+//! Writes the result file of a run. A session writes rows and checkpoints, and can continue the results of an
+//! earlier run.
 //!
-//! A checkpoint is at the end of a row, or in compressed files at the end of a frame. The bytes up to a checkpoint do
-//! not depend on later rows. A resumed run removes the rows after the last checkpoint and computes them again, with the
-//! same bytes.
+//! A checkpoint is at the end of a row, or in compressed files at the end of a frame. The bytes of the file
+//! before a checkpoint do not depend on later rows. A resumed run removes the rows after the last checkpoint
+//! and computes them again, with the same bytes.
 //!
-//! A Parquet file can be neither read nor continued before its last byte is written. The rows of a Parquet file are
-//! therefore first written to `<results>.part`, as compressed text like a `.csv.zst` file. The rows become columns when
-//! the run is complete.
+//! A Parquet file can be neither read nor continued before its last byte is written. The rows of a Parquet
+//! file are therefore first written to `<results>.part`, as compressed text like a `.csv.zst` file. When the
+//! run is complete, flap converts the rows into the columns of the Parquet file.
 
 use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom};
@@ -33,21 +34,22 @@ use crate::table::layout::Cell;
 pub struct SessionOptions {
     /// Options of the run.
     pub run: RunOptions,
-    /// Time between checkpoints. Each checkpoint waits for the disk twice. A run that is killed loses the rows since
-    /// the last checkpoint.
+    /// Time between checkpoints. Each checkpoint waits twice until data are safe on disk. A run that is
+    /// killed loses the rows since the last checkpoint.
     pub checkpoint_interval: Duration,
 }
 
-/// Writer of the rows of a plan to a file, such that the run can be resumed.
+/// Writes the rows of a plan into a file, with checkpoints from which the run can be resumed.
 pub struct Session {
     path: PathBuf,
     format: Format,
     results: File,
     rows: TextRows,
     provenance: Provenance,
-    /// Rows of earlier runs: the file with these rows, the format of the file, and the number of bytes of the rows.
+    /// Rows of earlier runs: the path of the file with these rows, the format of the file, and the number of
+    /// bytes to read.
     earlier: Option<(PathBuf, Format, u64)>,
-    /// Checksum of a Parquet file, once rows have been converted to columns.
+    /// Checksum of the Parquet file; `None` until the rows have been converted into the Parquet file.
     parquet_sum: Option<FileSum>,
     journal: Journal,
     checkpoint_interval: Duration,
@@ -64,25 +66,26 @@ pub struct Resumed {
     pub before: Summary,
     /// Start time of the first session, as RFC 3339 in UTC.
     pub started: String,
-    /// Number of rows that were written but are missing in the file.
+    /// Number of rows that earlier runs wrote, but that are missing in the file.
     pub lost: u64,
     /// Lock of the results.
     pub lock: Lock,
 }
 
-/// Error of a run that cannot be resumed.
+/// Reason why a run cannot be resumed.
 #[derive(Debug, thiserror::Error)]
 pub enum ResumeError {
     /// The results cannot be written.
     #[error(transparent)]
     Create(#[from] CreateError),
-    /// The ending of the name belongs to no format.
+    /// The file name has no supported ending, such as `.csv`.
     #[error(transparent)]
     Format(#[from] FormatError),
     /// The results have no journal.
     #[error("{} has no journal, so this file is not the result of an interrupted sweep", .0.display())]
     NoJournal(PathBuf),
-    /// The remaining rows would differ from the rows of the earlier run.
+    /// The grid, the settings or the build of flap have changed, so the new rows would not match the earlier
+    /// rows.
     #[error("{} cannot be resumed: {}", path.display(), changes.join("; "))]
     Changed {
         /// The results.
@@ -96,13 +99,15 @@ pub enum ResumeError {
 }
 
 impl Session {
-    /// Begins to write to `results`, an empty file that [`output::create`] opened at `path`.
+    /// Begins a session that writes to the empty file `results`, which [`output::create`] has opened at
+    /// `path`.
     ///
-    /// The journal records the time `started`. The field `replaces` records that the results will replace earlier
-    /// results.
+    /// The journal records the start time `started`. If `replaces` is true, the journal also records that the
+    /// new results will replace earlier results.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::AlreadyExists`] if there is a journal, or a file with the rows of an unfinished Parquet file.
+    /// - [`io::ErrorKind::AlreadyExists`] if there is already a journal, or a file `<results>.part` with
+    ///   rows.
     /// - The error of the operating system if a file cannot be written.
     pub fn start(
         results: File,
@@ -128,13 +133,14 @@ impl Session {
         Ok(Session::new(results, (path, format), rows, plan, options, journal))
     }
 
-    /// Continues the results at `path`.
+    /// Continues the unfinished results at `path`.
     ///
     /// # Errors
-    /// - [`ResumeError::Format`] if the ending of the name belongs to no format.
+    /// - [`ResumeError::Format`] if the file name has no supported ending, such as `.csv`.
     /// - [`ResumeError::Create`] if a file cannot be opened.
     /// - [`ResumeError::NoJournal`] if there is no journal.
-    /// - [`ResumeError::Changed`] if the journal belongs to other rows.
+    /// - [`ResumeError::Changed`] if the journal records a different grid, different settings or a different
+    ///   build of flap.
     /// - [`ResumeError::Altered`] if the results have changed since flap wrote them.
     pub fn resume(path: &Path, plan: &Plan, options: &SessionOptions) -> Result<Resumed, ResumeError> {
         let refused = |source| CreateError::Io { path: path.to_owned(), source };
@@ -173,7 +179,8 @@ impl Session {
         Ok(Resumed { session, before: checkpoint.summary, started: past.header.started, lost, lock })
     }
 
-    /// Returns a session that writes `rows` for the results at `path`, and their checkpoints to `journal`.
+    /// Returns a session for the results at `path`. The session writes rows with the writer `rows`, and
+    /// checkpoints into `journal`.
     fn new(
         results: File,
         (path, format): (&Path, Format),
@@ -199,8 +206,8 @@ impl Session {
         }
     }
 
-    /// Writes all rows of the complete results at `path`, which belong to the same plan, as the first rows. `summary`
-    /// counts the copied rows.
+    /// Copies all rows of the complete results at `path` to the beginning of the new results. The copied rows
+    /// must be rows of the same plan. `summary` counts the copied rows.
     ///
     /// # Errors
     /// The error of the operating system if a file cannot be read or written.
@@ -217,21 +224,22 @@ impl Session {
         if self.rows.may_be_cut() { self.write_checkpoint(summary) } else { Ok(()) }
     }
 
-    /// Returns the running time of all sessions so far (s).
+    /// Returns the time that all sessions have taken together so far, in seconds.
     pub fn seconds(&self) -> f64 {
         self.seconds_before + self.began.elapsed().as_secs_f64()
     }
 
-    /// Returns the path of the file that contains unfinished rows. For a Parquet file, the file with unfinished rows is
-    /// not the result file.
+    /// Returns the path of the file into which the session writes rows. For Parquet, this file is
+    /// `<results>.part` instead of the result file.
     pub fn rows_path(&self) -> PathBuf {
         rows_of(&self.path, self.format)
     }
 
-    /// Adds the last checkpoint, after [`Sink::finish`]. Completes the results if the run has ended.
+    /// Adds the last checkpoint. If the run is complete, the function also writes the Parquet file. Call this
+    /// function after [`Sink::finish`].
     ///
     /// # Errors
-    /// - [`io::ErrorKind::Other`] if a file was removed or replaced.
+    /// - [`io::ErrorKind::Other`] if a file of the session was removed, replaced or changed.
     /// - The error of the operating system if a file cannot be written.
     pub fn end(&mut self, summary: &Summary) -> io::Result<()> {
         if !summary.is_interrupted() || self.rows.may_be_cut() {
@@ -257,7 +265,7 @@ impl Session {
         &self.path
     }
 
-    /// Writes the rows to the disk (fsync), then adds a checkpoint after these rows.
+    /// Waits until the rows so far are safe on disk (fsync), then adds a checkpoint to the journal.
     fn write_checkpoint(&mut self, so_far: &Summary) -> io::Result<()> {
         self.rows.flush()?;
         disk::check_in_place(&self.results, &self.path)?;
@@ -309,7 +317,8 @@ impl Sink for Session {
     }
 }
 
-/// Writes the rows in the file `part` to the empty file `results`, and returns the checksums of `results`.
+/// Converts the rows of the text file `part` into the empty Parquet file `results`, and returns the checksums
+/// of `results`.
 ///
 /// # Errors
 /// - [`io::ErrorKind::Other`] if the rows do not have the checksum `text`.

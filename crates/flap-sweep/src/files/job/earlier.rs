@@ -1,5 +1,5 @@
-//! Jobs with earlier results under the same name. A job continues the earlier results, or compares them with its own
-//! rows.
+//! Begins jobs whose result file exists already. If the earlier results are unfinished, the job continues
+//! them. If the earlier results are complete, the job checks that they contain the rows of the job.
 
 use std::path::Path;
 
@@ -15,7 +15,7 @@ use crate::run::Summary;
 use crate::run::identity::Identity;
 
 impl<'a> Job<'a> {
-    /// Begins the job after its finished points.
+    /// Begins the job after the points that earlier runs have finished.
     pub(super) fn resume(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
         let Some(new) = replacement::unfinished(&self.out) else {
@@ -41,7 +41,7 @@ impl<'a> Job<'a> {
         Ok(begun)
     }
 
-    /// Begins the job after the finished points of the results at `place`.
+    /// Begins the job after the points that are finished in the results at `place`.
     fn resume_at(&'a self, place: &Path) -> Result<Begun<'a>, JobError> {
         let has_journal =
             replacement::has_journal(place).map_err(|error| JobError::write(place, error, false))?;
@@ -77,10 +77,11 @@ impl<'a> Job<'a> {
         Ok(self.writing(target, before, Some(lost), locks))
     }
 
-    /// Ends the job, whose results at `place` are complete.
+    /// Ends a job whose results at `place` are already complete.
     ///
-    /// `has_journal` is true only for a run that was killed at its very end. In this case, the last steps of the run
-    /// are repeated; in all other cases, the function writes nothing.
+    /// If `has_journal` is true, a run was killed after its last row but before it removed its journal. In
+    /// this case, the function repeats the last steps of the run. If `has_journal` is false, the function
+    /// does not change the results.
     fn end_complete<'b>(
         &self,
         place: &Path,
@@ -99,8 +100,8 @@ impl<'a> Job<'a> {
         Ok(outcome)
     }
 
-    /// Ends the job if the complete results at `rows` contain the rows of this job and are undamaged. If the results
-    /// contain other rows or are damaged, the function returns an error.
+    /// Ends the job if the complete results at `rows` contain the rows of this job and are undamaged. If the
+    /// results contain different rows or are damaged, the function returns an error.
     fn complete_if_same_rows<'b>(&self, rows: &Path, sidecar: &Sidecar) -> Result<Begun<'b>, JobError> {
         let changes = sidecar.identity.differences(&self.identity());
         if !changes.is_empty() {
@@ -113,24 +114,28 @@ impl<'a> Job<'a> {
         Ok(Begun::Complete { all_periodic })
     }
 
-    /// Returns true if these complete results contain the points of the axes only, although the grid is refined.
+    /// Returns true if the grid has a `[refine]` table, but the complete results contain only the points of
+    /// the axes.
     ///
-    /// Merged shards are results without points of the refinement, because no shard contains such points.
+    /// Merged shards lack the points that a refinement adds, because a shard contains only points of the
+    /// axes.
     fn lacks_refinement(&self, sidecar: &Sidecar) -> bool {
         let is_refined = sidecar.summary.as_ref().is_some_and(|summary| summary.refined.is_some());
         self.plan.refine().is_some() && *self.plan.selection() == Selection::All && !is_refined
     }
 
-    /// Returns the sidecar of complete results, if the results lack the points of the refinement.
+    /// Returns the sidecar of the results if the results are complete, but lack the points that the
+    /// refinement adds.
     fn without_refinement(&self) -> Option<Sidecar> {
         let sidecar = Sidecar::read(&sidecar_of(&self.out)).ok()?;
         (sidecar.state == State::Complete && self.lacks_refinement(&sidecar)).then_some(sidecar)
     }
 
-    /// Begins the job at the first point of the refinement, after the rows of complete results that contain the points
-    /// of the axes.
+    /// Begins the job at the first point that the refinement adds. The complete results already contain the
+    /// points of the axes.
     ///
-    /// The rows are copied into a file that replaces the results when it is complete.
+    /// The function copies the rows of the results into a new file. When the new file is complete, the new
+    /// file replaces the results.
     fn continue_merged(&'a self, sidecar: &Sidecar) -> Result<Begun<'a>, JobError> {
         self.complete_if_same_rows(&self.out, sidecar)?;
         let format = Format::of(&self.out)?;
@@ -144,12 +149,12 @@ impl<'a> Job<'a> {
         Ok(self.writing(target, before, Some(0), locks))
     }
 
-    /// Returns the identity of the job's rows.
+    /// Returns the identity of the job's rows: the build and the settings that determine the rows.
     fn identity(&self) -> Identity {
         Identity::of(self.plan, &self.options.run)
     }
 
-    /// Returns the error, with the first changed line of the grid file.
+    /// Converts `error` into a [`JobError::Resume`] that describes the first changed line of the grid file.
     fn cannot_resume(&self, place: &Path, error: ResumeError) -> JobError {
         let sidecar = Sidecar::read(&sidecar_of(place)).ok();
         let before = sidecar.as_ref().filter(|_| matches!(error, ResumeError::Changed { .. }));
@@ -161,7 +166,8 @@ impl<'a> Job<'a> {
         JobError::Resume { error, changed, continues }
     }
 
-    /// Returns a description of the first line of the grid file that differs from the sidecar's grid.
+    /// Describes the first line in which the grid file or a device differs from its copy in the sidecar
+    /// `before`.
     fn changed_line(&self, before: &Sidecar) -> Option<String> {
         let of_devices = before.devices.iter().zip(self.plan.devices());
         let mut of_devices = of_devices.map(|(before, now)| difference(&before.text, &now.text, &now.name));
@@ -176,7 +182,7 @@ fn has_checkpoint(place: &Path) -> bool {
     past.is_some_and(|past| !past.checkpoints.is_empty())
 }
 
-/// Describes the first line in which two versions of the file called `name` differ.
+/// Describes the first line in which two versions of the file `name` differ.
 fn difference(before: &str, now: &str, name: &str) -> Option<String> {
     let (before, now): (Vec<&str>, Vec<&str>) = (before.lines().collect(), now.lines().collect());
     let line = (0..before.len().max(now.len())).find(|&line| before.get(line) != now.get(line))?;

@@ -1,7 +1,9 @@
-//! Writes the rows of a plan into a result file with its sidecar. An interrupted run can be resumed.
+//! Writes the rows of a plan into a result file, and writes the sidecar of the file. An interrupted run can
+//! be resumed.
 //!
-//! [`begin`] opens the files. A [`RowWriter`](crate::run::RowWriter) of the caller writes rows of this machine or chunks
-//! of other machines to [`Writing::sink`]. The caller ends with [`Writing::finish`].
+//! The function [`begin`] opens the files. The caller then writes the rows to [`Writing::sink`] with a
+//! [`RowWriter`](crate::run::RowWriter). The rows are computed on this machine, or arrive in chunks from
+//! other machines. After the last row, the caller calls [`Writing::finish`].
 
 use std::fs::{self, File};
 use std::io;
@@ -25,7 +27,7 @@ use crate::table::layout::Layout;
 
 mod earlier;
 
-/// A plan to run, and the file for its rows.
+/// A plan whose rows are computed, and the file for the rows.
 pub struct Job<'a> {
     /// Points.
     pub plan: &'a Plan,
@@ -35,42 +37,43 @@ pub struct Job<'a> {
     pub on_existing: OnExisting,
     /// Options of the session.
     pub options: SessionOptions,
-    /// Earlier results whose points are run again, if this is a rerun.
+    /// For a rerun, the earlier results whose points are computed again; otherwise `None`.
     pub origin: Option<Origin>,
 }
 
 /// Treatment of existing results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OnExisting {
-    /// Unfinished rows of the job are continued. If the rows are complete, nothing is run. Existing results with other
-    /// rows are an error.
+    /// If the existing results are unfinished, the job continues them. If the existing results are complete,
+    /// the job computes nothing. If the existing results contain different rows, the job returns an error.
     Continue,
-    /// Existing results are replaced when the new results are complete. Until the new results are complete, they have
-    /// [another name](replacement::unfinished).
+    /// The existing results are replaced when the new results are complete. Until the new results are
+    /// complete, they have [a different name](replacement::unfinished), such as `rows.new.csv`.
     Restart,
 }
 
 /// A job after [`begin`].
 pub enum Begun<'a> {
-    /// The rows of the job must be written.
+    /// The caller must write the rows of the job.
     Writing(Box<Writing<'a>>),
     /// All rows of the job exist already.
     Complete {
-        /// True if all rows are periodic.
+        /// True if all rows have the status `periodic`.
         all_periodic: bool,
     },
 }
 
-/// The result file of a job while the job writes rows.
+/// The open result file of a job that writes rows.
 pub struct Writing<'a> {
     job: &'a Job<'a>,
     target: Target,
-    /// Summary of the rows of earlier runs. The next row belongs to the point after these rows.
+    /// Summary of the rows that earlier runs have written. The job continues with the first point after these
+    /// rows.
     pub before: Summary,
-    /// Number of rows that earlier runs had written but that are missing in the file, if the job continues a run.
-    /// The job computes the missing rows again.
+    /// If the job continues a run, the number of rows that earlier runs wrote but that are missing in the
+    /// file. The job computes the missing rows again.
     pub lost: Option<u64>,
-    /// Locks of the results and of their replacement, until the end of the job.
+    /// Locks of the result file and of its replacement. The files remain locked until the end of the job.
     locks: Vec<Lock>,
     begun: Instant,
 }
@@ -79,7 +82,7 @@ pub struct Writing<'a> {
 enum Target {
     /// A regular file with its journal and sidecar.
     Session(Box<Session>, Box<Sidecar>),
-    /// A device or a pipe. A device or pipe has no files beside it, so the run cannot be resumed.
+    /// A device or a pipe. For a device or a pipe, flap writes no journal, so the run cannot be resumed.
     Stream(CsvSink<File>),
 }
 
@@ -90,9 +93,9 @@ pub struct Done {
     pub summary: Summary,
     /// Number of rows of earlier runs.
     pub rows_before: u64,
-    /// Running time of this process (s).
+    /// Time that this process has spent on the job, in seconds.
     pub seconds: f64,
-    /// File that contains the rows; `None` for a stream.
+    /// File that contains the rows; `None` for a device or a pipe.
     pub place: Option<PathBuf>,
 }
 
@@ -100,8 +103,8 @@ pub struct Done {
 ///
 /// # Errors
 /// - [`JobError::Overlap`] if the results would overwrite one of the input files.
-/// - [`JobError::Format`] if the ending of the name belongs to no format.
-/// - [`JobError::Exists`] if a file of this name contains other rows.
+/// - [`JobError::Format`] if the file name has no supported ending, such as `.csv`.
+/// - [`JobError::Exists`] if the result file exists already and does not contain the rows of the job.
 /// - [`JobError::Create`] if the results cannot be created.
 /// - [`JobError::Resume`] if the run cannot be resumed.
 /// - [`JobError::Open`] if the results are complete but damaged.
@@ -141,8 +144,8 @@ impl<'a> Job<'a> {
         Ok(self.writing(target, Summary::default(), None, locks))
     }
 
-    /// Begins the job with an empty file beside the earlier results. When the file is complete, it gets the name of the
-    /// results. Adds the lock of the file to `locks`.
+    /// Begins the job in a new file beside the earlier results. When the new file is complete, the new file
+    /// gets the name of the earlier results. The function adds the lock of the new file to `locks`.
     fn start_beside(&self, format: Format, locks: &mut Vec<Lock>) -> Result<Target, JobError> {
         let new = replacement::of(&self.out);
         let (file, lock) = output::create(&new, false).map_err(|error| match error {
@@ -155,8 +158,8 @@ impl<'a> Job<'a> {
         self.start_at((&new, format), file, true)
     }
 
-    /// Begins the job with the empty `file` at `place`. If `replaces` is true, the file gets the name of the earlier
-    /// results when the file is complete.
+    /// Begins the job in the empty file `file`, whose path is `place`. If `replaces` is true, `file` gets the
+    /// name of the earlier results when `file` is complete.
     fn start_at(
         &self,
         (place, format): (&Path, Format),
@@ -182,12 +185,13 @@ impl<'a> Job<'a> {
         Sidecar::new(self.plan, started, &self.options.run, self.origin.clone())
     }
 
-    /// Returns the job after the rows that `before` counts.
+    /// Returns the state of a job that continues after the rows that `before` counts.
     fn writing(&'a self, target: Target, before: Summary, lost: Option<u64>, locks: Vec<Lock>) -> Begun<'a> {
         Begun::Writing(Box::new(Writing { job: self, target, before, lost, locks, begun: Instant::now() }))
     }
 
-    /// Gives the complete results at `place` their final name, and removes the files that complete results do not need.
+    /// Gives the complete results at `place` their final name, and removes the journal and further files of
+    /// unfinished results.
     fn complete(&self, place: &Path) -> Result<(), JobError> {
         let completed = if place == self.out {
             replacement::remove_progress(place)
@@ -199,12 +203,14 @@ impl<'a> Job<'a> {
 }
 
 impl Writing<'_> {
-    /// Returns the reason for a failed lock. Without a lock, another run that writes to the results is not detected.
+    /// If the results could not be locked, returns the reason. Without a lock, flap does not detect a second
+    /// run that writes to the same results.
     pub fn unlocked(&self) -> Option<&io::Error> {
         self.locks.iter().find_map(Lock::unlocked)
     }
 
-    /// Returns the sink for the rows after the rows of earlier runs.
+    /// Returns the sink to which the caller writes the new rows. The sink adds the new rows after the rows of
+    /// earlier runs.
     pub fn sink(&mut self) -> &mut dyn Sink {
         match &mut self.target {
             Target::Session(session, _) => &mut **session,
@@ -212,10 +218,10 @@ impl Writing<'_> {
         }
     }
 
-    /// Completes the results and their sidecar. `ended` is the result of the run.
+    /// Completes the results and their sidecar. `ended` is the summary of all rows, or the error of the run.
     ///
     /// # Errors
-    /// - [`JobError::Run`] with the error of the run; the written rows are kept with their journal.
+    /// - [`JobError::Run`] if the run failed. The written rows and the journal are kept.
     /// - [`JobError::Write`] if a file beside the results cannot be written.
     pub fn finish(self, ended: Result<Summary, RunError>) -> Result<Done, JobError> {
         let rows_before = self.before.rows;
@@ -268,7 +274,7 @@ pub enum JobError {
     /// The results would overwrite one of the input files.
     #[error(transparent)]
     Overlap(#[from] Overlap),
-    /// The ending of the name belongs to no format.
+    /// The file name has no supported ending, such as `.csv`.
     #[error(transparent)]
     Format(#[from] FormatError),
     /// The results cannot be created.
@@ -279,9 +285,10 @@ pub enum JobError {
     Exists {
         /// The file.
         path: PathBuf,
-        /// Differences between the rows of the file and the rows of the job, in words; empty if unknown.
+        /// Descriptions of the differences between the rows in the file and the rows of the job; empty if
+        /// unknown.
         changes: Vec<String>,
-        /// Description of the first line of the grid file that differs.
+        /// Description of the first line in which the grid file differs from the grid in the sidecar.
         changed: Option<String>,
     },
     /// The run cannot be resumed.
@@ -289,9 +296,9 @@ pub enum JobError {
     Resume {
         /// The reason.
         error: ResumeError,
-        /// Description of the first line of the grid file that has changed.
+        /// Description of the first line in which the grid file differs from the grid in the sidecar.
         changed: Option<String>,
-        /// True if the sweep that began the rows can be continued from its sidecar.
+        /// True if `flap results resume` can continue the rows with the grid that the sidecar records.
         continues: bool,
     },
     /// The results are complete, but the results or the sidecar are damaged or unreadable.
@@ -302,7 +309,7 @@ pub enum JobError {
     Write {
         /// The file.
         path: PathBuf,
-        /// The error of the operating system.
+        /// Error that the operating system reported.
         source: io::Error,
         /// True if the run can be resumed.
         resumable: bool,
@@ -312,12 +319,12 @@ pub enum JobError {
     Run {
         /// The reason.
         error: RunError,
-        /// True if the rows are in a file, so that the run can be resumed.
+        /// True if the written rows are in a regular file, so that the run can be resumed.
         resumable: bool,
     },
 }
 
-/// Returns the differences between existing rows and the rows of the job, as the end of a message.
+/// Returns the end of a message, which describes how the existing rows differ from the rows of the job.
 fn other_rows(changes: &[String]) -> String {
     if changes.is_empty() { String::new() } else { format!(", with other rows: {}", changes.join("; ")) }
 }

@@ -1,8 +1,9 @@
-//! Checksums of rows, which detect and locate damage.
+//! Checksums of rows. With the checksums, flap detects damage and finds the damaged rows.
 //!
-//! The checksums are computed from the rows as text. The text is the same in every format, so a converted file keeps
-//! its checksums. Lines are counted from the first line of the file, so threads and interruptions do not change
-//! checksums.
+//! flap computes the checksums from the rows as CSV text. The CSV text is the same for every file format, so
+//! the conversion of a file does not change the checksums. The blocks of rows are counted from the first line
+//! of the file. The checksums therefore do not depend on the number of threads or on interruptions of the
+//! run.
 
 use std::fmt::Write as _;
 use std::io::{self, Read, Write};
@@ -13,30 +14,32 @@ use xxhash_rust::xxh3::Xxh3Default;
 
 use crate::notation::text::digits;
 
-/// Number of rows in a block. Each block has a checksum, and is a frame in compressed files.
+/// Number of rows in a block. Each block of rows has a checksum. In compressed files, each block of rows is
+/// one compressed frame.
 ///
-/// Blocks begin at the same rows for any number of threads and in resumed runs. The bytes of files therefore do not
-/// depend on threads and interruptions. Rows in an incomplete frame are lost if the process is killed. Larger blocks
-/// would hardly make files smaller.
+/// Blocks begin at the same rows for any number of threads and in resumed runs. The bytes of files therefore
+/// do not depend on the number of threads or on interruptions of the run. Rows in an incomplete frame are
+/// lost if the process is killed. Larger blocks of rows would hardly make compressed files smaller.
 pub const BLOCK_ROWS: u32 = 256;
 
-/// Number of checksums in one line of a sidecar. The checksums of ten million rows take 3,300 lines, about a
-/// ten-thousandth of the bytes of the rows.
+/// Number of checksums in one line of a sidecar. The checksums of ten million rows take 3,300 lines. Their
+/// size is about a ten-thousandth of the size of the rows.
 const PER_LINE: usize = 12;
 
-/// Checksums of a result file: of its rows as text, and of its bytes.
+/// Checksums of a result file. Some checksums are for the rows as CSV text, and one checksum is for the bytes
+/// of the file.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Checksums {
-    /// XXH3 of the header and all rows as lines of CSV, in hexadecimal digits.
+    /// XXH3 hash of the header and all rows as lines of CSV, in hexadecimal digits.
     pub text: String,
-    /// Lower half of the XXH3 of the header.
+    /// Lower 32 bits of the XXH3 hash of the header line, in hexadecimal digits.
     pub header: String,
     /// Number of rows in each block except the last block.
     pub block_rows: u32,
-    /// Lower half of the XXH3 of every block of rows. The lower half is sufficient, because these checksums only locate
-    /// damage that the checksum `text` detects.
+    /// Lower 32 bits of the XXH3 hash of every block of rows. For a block, 32 bits are sufficient, because
+    /// the checksum `text` of all rows already detects the damage.
     pub blocks: String,
-    /// Checksum of the bytes of the file; `None` if the file was not written from undamaged rows.
+    /// Checksum of the bytes of the file; `None` if the file is a converted copy of a damaged file.
     pub file: Option<FileSum>,
 }
 
@@ -45,7 +48,7 @@ pub struct Checksums {
 pub struct FileSum {
     /// Number of bytes.
     pub bytes: u64,
-    /// XXH3 of the bytes, in hexadecimal digits.
+    /// XXH3 hash of the bytes, in hexadecimal digits.
     pub xxh3: String,
 }
 
@@ -53,7 +56,7 @@ impl FileSum {
     /// Returns the checksum of all bytes of `source`.
     ///
     /// # Errors
-    /// The error of reading `source`.
+    /// Returns the error of the operating system if `source` cannot be read.
     pub(crate) fn of(mut source: impl Read) -> io::Result<FileSum> {
         let mut hash = Xxh3Default::new();
         let bytes = io::copy(&mut source, &mut hash)?;
@@ -62,22 +65,23 @@ impl FileSum {
 }
 
 impl Checksums {
-    /// Returns the checksums of header and blocks; `None` if the checksums do not have flap's format.
+    /// Returns the checksum of the header, then the checksums of the blocks of rows. Returns `None` if a
+    /// checksum is not a hexadecimal number.
     pub(crate) fn parts(&self) -> Option<Vec<u32>> {
         let words = std::iter::once(self.header.as_str()).chain(self.blocks.split_whitespace());
         words.map(|word| u32::from_str_radix(word, 16).ok()).collect()
     }
 }
 
-/// Computes the checksums of a file's text from pieces of any size.
+/// Computes the checksums of a text. The text can arrive in pieces of any size.
 #[derive(Clone)]
 pub(crate) struct TextDigest {
     whole: Xxh3Default,
     block: Xxh3Default,
-    /// True if the block `block` contains bytes.
+    /// True if the hash `block` already contains bytes of the current block.
     is_begun: bool,
     lines: u64,
-    /// Checksum of the header, then checksums of blocks.
+    /// Checksum of the header, then the checksums of the complete blocks of rows.
     parts: Vec<u32>,
 }
 
@@ -124,7 +128,8 @@ impl TextDigest {
         digits(self.whole.digest())
     }
 
-    /// Returns the checksums of header and blocks. The last block may have fewer rows than the other blocks.
+    /// Returns the checksum of the header, then the checksums of the blocks of rows. The last block may have
+    /// fewer rows than the other blocks.
     pub(crate) fn parts(&self) -> Vec<u32> {
         let mut parts = self.parts.clone();
         if self.is_begun {
@@ -133,7 +138,8 @@ impl TextDigest {
         parts
     }
 
-    /// Returns the checksums for a sidecar. `file` is the checksum of the file that contains the text.
+    /// Returns the checksums in the form in which a sidecar contains them. `file` is the checksum of the file
+    /// that contains the text.
     pub(crate) fn checksums(&self, file: Option<FileSum>) -> Checksums {
         let parts = self.parts();
         let header = parts.first().map_or_else(String::new, |part| format!("{part:08x}"));

@@ -1,8 +1,8 @@
-//! Result files: formats, and reading and writing rows as text.
+//! Reads and writes the rows of result files as text, in all formats.
 //!
-//! Rows are the same text in every format. A cell is the text of
-//! [`Layout::cells`](crate::table::layout::Layout::cells), whether the row comes from a model or from a file. A file
-//! that is converted or merged from parts therefore has the same bytes as a file that was written at once.
+//! A row has the same text in every format. The text of a cell is always the text of
+//! [`Layout::cells`](crate::table::layout::Layout::cells), both for computed rows and for rows from a file. A
+//! converted file or a file of merged shards therefore has the same bytes as the file of a single sweep.
 
 mod checksum;
 #[cfg(feature = "parquet")]

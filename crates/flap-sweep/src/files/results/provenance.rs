@@ -1,4 +1,4 @@
-//! Origin of rows: the metadata of Parquet files, for writing and reading.
+//! Writes and reads the origin of rows in the metadata of Parquet files.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -14,19 +14,21 @@ use crate::plan::{Plan, PointsFile, Source};
 use crate::run::identity::Identity;
 use crate::table::layout::{Column, Layout};
 
-/// Columns of a file and the origin of its rows.
+/// Columns of a result file, and the origin of the rows of this file.
 ///
-/// The origin is independent of time, machine and number of threads, so equal rows give equal files.
+/// The origin does not depend on the time, the machine or the number of threads. Two files with equal rows
+/// therefore have equal bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Provenance {
     /// Columns, from left to right.
     pub columns: Vec<Column>,
-    /// Entries, as pairs of a key and a text.
+    /// Entries of the metadata, as pairs of a key and a text.
     pub entries: Vec<(String, String)>,
 }
 
 impl Provenance {
-    /// Returns the origin of the rows of `plan`. `identity` contains the version and the arithmetic of flap.
+    /// Returns the origin of the rows of `plan`. `identity` contains the version and the build of flap, and
+    /// its kind of floating-point arithmetic.
     pub fn of(plan: &Plan, identity: &Identity) -> Provenance {
         let columns = Layout::of(plan).columns();
         let units = columns.iter().filter(|column| !column.unit.is_empty());
@@ -57,8 +59,8 @@ impl Provenance {
 /// Devices of a grid, as `[[device]]` tables.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Devices {
-    /// Devices with their paths relative to the folder of the grid file, so that equal grids in different folders
-    /// give equal files.
+    /// Devices of the grid. Their paths are relative to the folder of the grid file, so the same grid in a
+    /// different folder gives the same result file.
     #[serde(default)]
     device: Vec<Source>,
 }
@@ -73,7 +75,8 @@ fn devices(plan: &Plan) -> Devices {
     Devices { device: device.collect() }
 }
 
-/// Returns the parameters before the axes are applied, without parameters that have their values from other parameters.
+/// Returns the base values of the parameters, which apply before the axes vary parameters. Parameters whose
+/// values are computed are left out.
 pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {
         Some(option) => Value::String(option.to_owned()),
@@ -84,17 +87,18 @@ pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     set.map(|(parameter, base)| (parameter.name.to_owned(), value(parameter, base))).collect()
 }
 
-/// Returns `value` as TOML. The conversion of names, numbers and words never fails.
+/// Converts `value` into TOML text. The conversion cannot fail, because `value` contains only names, numbers
+/// and words.
 fn toml_text(value: &impl Serialize) -> String {
     toml::to_string(value).unwrap_or_default()
 }
 
-/// Entries that [`Provenance`] writes, by key.
+/// Entries of the metadata of a file that [`Provenance`] wrote, accessible by key.
 #[derive(Clone, Debug)]
 pub struct Recorded<'a>(BTreeMap<&'a str, &'a str>);
 
 impl<'a> Recorded<'a> {
-    /// Returns the entries of a file, if flap wrote the file.
+    /// Returns the entries of the metadata of a file, or `None` if flap did not write the file.
     pub fn of(entries: &'a [(String, String)]) -> Option<Recorded<'a>> {
         let entries: BTreeMap<&str, &str> =
             entries.iter().map(|(key, text)| (key.as_str(), text.as_str())).collect();
@@ -106,10 +110,11 @@ impl<'a> Recorded<'a> {
         toml::from_str(self.text("flap.units")).unwrap_or_default()
     }
 
-    /// Returns the plan of the rows. The rows may contain only some points of the plan.
+    /// Returns the plan from which the rows were computed. The file may contain rows of only some points of
+    /// the plan.
     ///
-    /// `None` if the grid file belongs to another version of flap, its devices were not recorded, or a file of points
-    /// has moved or changed.
+    /// Returns `None` if this version of flap cannot parse the recorded grid file, or if the file does not
+    /// record the devices of the grid. Returns `None` also if a file of points was moved or changed.
     pub fn plan(&self, models: &[&'static dyn Simulator]) -> Option<Plan> {
         let Devices { device } = toml::from_str(self.text("flap.devices")).ok()?;
         // Devices are named relative to the folder of the grid file, which is the folder of this name.
@@ -120,7 +125,8 @@ impl<'a> Recorded<'a> {
         (points.as_deref() == self.0.get("flap.points_file").copied()).then_some(plan)
     }
 
-    /// Returns the entry `key`, such as `flap.build`; empty if there is no such entry.
+    /// Returns the text of the entry `key`, such as `flap.build`. The text is empty if there is no such
+    /// entry.
     pub fn text(&self, key: &str) -> &'a str {
         self.0.get(key).copied().unwrap_or_default()
     }

@@ -1,4 +1,4 @@
-//! Reads rows from a file of any format, as text, and computes their digest.
+//! Reads rows as text from a result file of any format, and computes the checksums of the rows.
 
 use std::fmt;
 use std::fs::File;
@@ -11,11 +11,12 @@ use crate::files::csv_sink::cause;
 use crate::files::record::repeated;
 use crate::notation::text::count;
 
-/// Largest size of a line, or of lines without a row: 16 MiB. A typical line of results has a few hundred bytes. A line
-/// with ten thousand columns has less than 1 MiB.
+/// Largest number of bytes that are read for one row: 16 MiB. A typical line of results has a few hundred
+/// bytes. A line with ten thousand columns has less than 1 MiB.
 const LONGEST_LINE: usize = 16 << 20;
 
-/// A reader that returns an error if a line is too long. A few compressed bytes can expand to a line of any length.
+/// A reader that returns an error if a line is too long. The limit is necessary, because a few compressed
+/// bytes can expand to a line of any length.
 pub struct Bounded<R> {
     source: R,
     since_line: usize,
@@ -27,7 +28,7 @@ impl<R: Read> Bounded<R> {
         Bounded { source, since_line: 0 }
     }
 
-    /// Begins a new line. The previous line must have been read to its end.
+    /// Begins a new line. Call this function only when the previous line has been read to its end.
     pub fn begin_line(&mut self) {
         self.since_line = 0;
     }
@@ -47,24 +48,24 @@ impl<R: Read> Read for Bounded<R> {
     }
 }
 
-/// Reader of the rows of a result file in their order.
+/// Reader that returns the rows of a result file one after the other.
 pub struct Reader {
     names: Vec<String>,
     rows: Rows,
     missed: Option<Missed>,
 }
 
-/// Rows that a tolerant reader left out.
+/// Rows that a tolerant reader has left out because the rows are damaged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Missed {
-    /// Number of lines that are not rows.
+    /// Number of lines that were left out because they are not valid rows.
     pub rows: u64,
-    /// Reason why the rest of the file after the last row is unreadable.
+    /// Reason why the file could not be read to its end; `None` if the file was read to its end.
     pub rest: Option<String>,
 }
 
 impl Missed {
-    /// Returns true if the reader left out no rows.
+    /// Returns true if the reader left out nothing.
     pub fn is_none(&self) -> bool {
         *self == Missed::default()
     }
@@ -95,7 +96,8 @@ impl Reader {
     ///
     /// # Errors
     /// - [`io::ErrorKind::InvalidData`] if the file does not have the expected format.
-    /// - [`io::ErrorKind::Other`] if flap was built without Parquet.
+    /// - [`io::ErrorKind::Other`] if the file is a Parquet file, but flap was built without support for
+    ///   Parquet.
     /// - The error of the operating system if the file cannot be read.
     pub fn new(file: File, format: Format) -> io::Result<Reader> {
         match format {
@@ -110,7 +112,7 @@ impl Reader {
         }
     }
 
-    /// Returns a reader of text, plain or compressed.
+    /// Returns a reader of the CSV text in `source`, which may be compressed.
     pub(crate) fn of_text(source: impl Read + 'static, format: Format) -> io::Result<Reader> {
         let mut rows = csv::Reader::from_reader(Bounded::new(text::decoded(source, format)?));
         let names: Vec<String> = rows.headers().map_err(cause)?.iter().map(str::to_owned).collect();
@@ -131,12 +133,12 @@ impl Reader {
         self.missed.is_some()
     }
 
-    /// Returns the rows that the reader left out, if it left out rows.
+    /// Returns the rows that the reader left out, or `None` if the reader left out nothing.
     pub fn missed(&self) -> Option<&Missed> {
         self.missed.as_ref().filter(|missed| !missed.is_none())
     }
 
-    /// Counts the last row as left out and returns true; returns false if the reader is not tolerant.
+    /// If the reader is tolerant, counts the last row as left out and returns true. Otherwise returns false.
     pub fn leave_out(&mut self) -> bool {
         self.missed.as_mut().map(|missed| missed.rows += 1).is_some()
     }
@@ -146,8 +148,8 @@ impl Reader {
         &self.names
     }
 
-    /// Returns the metadata of a Parquet file, as keys with their texts: see [`Provenance`](super::Provenance). The
-    /// list is empty for other formats.
+    /// Returns the metadata of a Parquet file, as pairs of a key and a text: see
+    /// [`Provenance`](super::Provenance). The list is empty for all formats except Parquet.
     pub fn entries(&self) -> &[(String, String)] {
         match &self.rows {
             Rows::Text(_) => &[],
@@ -159,7 +161,8 @@ impl Reader {
     /// Reads the next row into `row`. Returns false after the last row.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::InvalidData`] if the row does not match the header, or is damaged.
+    /// - [`io::ErrorKind::InvalidData`] if the row is damaged, or if its number of cells differs from the
+    ///   header.
     /// - The error of the operating system if the file cannot be read.
     pub fn next(&mut self, row: &mut StringRecord) -> io::Result<bool> {
         loop {
@@ -191,8 +194,8 @@ impl Reader {
     }
 }
 
-/// Returns the digest of the rows in `file` as text, and an error if the digest ends where the file cannot be
-/// decoded.
+/// Returns the checksums of the rows in `file` as CSV text. If the file cannot be decoded to its end, the
+/// function also returns an error. The checksums then cover only the rows that were decoded.
 pub(crate) fn sum_up(file: File, format: Format) -> (TextDigest, io::Result<()>) {
     match format {
         #[cfg(feature = "parquet")]

@@ -1,4 +1,4 @@
-//! Checks that rows belong to a plan, are in order, and have cells that match their columns.
+//! Checks that the rows of a file are the rows of a plan, are in the right order, and contain valid cells.
 
 use std::io;
 
@@ -10,35 +10,37 @@ use crate::plan::Plan;
 use crate::plan::selection::Selection;
 use crate::table::layout::{Cell, Column, Layout};
 
-/// Check of the rows of a file, in the order of the rows.
+/// Checks the rows of a file one after the other.
 pub struct RowCheck {
     columns: Vec<Column>,
     status: usize,
     selection: Selection,
     points: u64,
-    /// Number of written rows; `None` if unknown.
+    /// Number of rows that flap wrote into the file; `None` if unknown.
     rows: Option<u64>,
-    /// First position among the selected points that the point of the next row may have.
+    /// Smallest allowed position of the next row's point in the list of selected points.
     next: u64,
     seen: u64,
-    /// True if every point must have a row.
+    /// True if every selected point must have a row.
     is_dense: bool,
-    /// True if a point may have several rows, as for a design with a response curve.
+    /// True if a point may have several rows. For example, a design with a response curve has one row per
+    /// motion.
     is_repeated: bool,
 }
 
-/// Error of a row that is not the next row of the plan. The error contains the message, in which rows count from 1.
+/// Error if a row is not the expected next row of the plan. The error contains a message, in which rows are
+/// counted from 1.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{0}")]
 pub struct RowError(String);
 
 impl RowCheck {
-    /// Returns a check of the rows of `plan`. `rows` is the number of written rows, if known.
+    /// Returns a [`RowCheck`] for the rows of `plan`. `rows` is the number of rows that flap wrote, if known.
     pub fn new(plan: &Plan, rows: Option<u64>) -> RowCheck {
         RowCheck::of(plan, plan.selection().clone(), rows)
     }
 
-    /// Returns a check for rows of the given points instead of the points that `plan` selects.
+    /// Returns a [`RowCheck`] for the points of `selection` instead of the points that `plan` selects.
     pub fn of(plan: &Plan, selection: Selection, rows: Option<u64>) -> RowCheck {
         let columns = Layout::of(plan).columns();
         let status = columns.iter().position(|column| column.name == "status").unwrap_or(0);
@@ -55,16 +57,16 @@ impl RowCheck {
         }
     }
 
-    /// Allows missing rows after this call, for a reader that leaves out unreadable rows.
+    /// Allows missing rows from now on, because a tolerant reader leaves out unreadable rows.
     pub fn allow_gaps(&mut self) {
         self.is_dense = false;
         self.rows = None;
     }
 
-    /// Checks the next row and returns its point.
+    /// Checks the next row and returns the index of its point.
     ///
     /// # Errors
-    /// [`RowError`] if the row is not the next row of the plan.
+    /// Returns a [`RowError`] if the row is not the expected next row of the plan.
     pub fn row(&mut self, cells: &StringRecord) -> Result<u64, RowError> {
         let row = self.seen + 1;
         let columns = self.columns.len();
@@ -103,10 +105,10 @@ impl RowCheck {
         Ok(point)
     }
 
-    /// Checks after the last row that no row is missing.
+    /// Checks that no row is missing. Call this function after the last row.
     ///
     /// # Errors
-    /// [`RowError`] if the number of rows differs from the number of written rows.
+    /// Returns a [`RowError`] if the number of checked rows differs from the number of rows that flap wrote.
     pub fn end(&self) -> Result<(), RowError> {
         match self.rows {
             Some(written) if written != self.seen => {
@@ -116,7 +118,8 @@ impl RowCheck {
         }
     }
 
-    /// Returns the position of a point among the selected points.
+    /// Returns the position of a point in the list of selected points, or `None` if the point is not
+    /// selected.
     fn position(&self, point: u64) -> Option<u64> {
         if point >= self.points {
             return None;
@@ -129,14 +132,14 @@ impl RowCheck {
     }
 }
 
-/// A reader that checks its rows. A tolerant reader leaves out rows that fail the check.
+/// A reader that checks each row with a [`RowCheck`]. A tolerant reader leaves out rows that fail the check.
 pub(crate) struct Checked<'a> {
     reader: &'a mut Reader,
     check: RowCheck,
     row: StringRecord,
 }
 
-/// Error of rows that cannot be read or do not belong to the plan.
+/// Reason why the rows of a file cannot be used.
 #[derive(Debug, thiserror::Error)]
 pub enum RowsError {
     /// The file cannot be read.
@@ -145,16 +148,16 @@ pub enum RowsError {
     /// The file's columns differ from the plan's columns.
     #[error("its columns differ from the columns of the grid in its sidecar")]
     Columns,
-    /// A row is not the next row of the plan.
+    /// A row is not the expected next row of the plan.
     #[error(transparent)]
     Row(#[from] RowError),
 }
 
 impl<'a> Checked<'a> {
-    /// Returns a reader that checks the rows of `reader`, which must be at its first row.
+    /// Returns a reader that checks the rows of `reader`. No row may have been read from `reader` before.
     ///
     /// # Errors
-    /// [`RowsError::Columns`] if the file's columns differ from the plan's columns.
+    /// Returns [`RowsError::Columns`] if the file's columns differ from the plan's columns.
     pub(crate) fn new(reader: &'a mut Reader, mut check: RowCheck) -> Result<Checked<'a>, RowsError> {
         if !reader.names().iter().eq(check.columns.iter().map(|column| &column.name)) {
             return Err(RowsError::Columns);
@@ -165,11 +168,12 @@ impl<'a> Checked<'a> {
         Ok(Checked { reader, check, row: StringRecord::new() })
     }
 
-    /// Reads the next row and returns its point; `None` after the last row.
+    /// Reads the next row and returns the index of its point. Returns `None` after the last row.
     ///
     /// # Errors
     /// - [`RowsError::Read`] if the file cannot be read.
-    /// - [`RowsError::Row`] if the row is not the next row of the plan, or rows are missing at the end.
+    /// - [`RowsError::Row`] if the row is not the expected next row of the plan, or if rows are missing at
+    ///   the end of the file.
     pub(crate) fn next(&mut self) -> Result<Option<u64>, RowsError> {
         while self.reader.next(&mut self.row)? {
             match self.check.row(&self.row) {
@@ -182,7 +186,7 @@ impl<'a> Checked<'a> {
         Ok(None)
     }
 
-    /// Returns the cells of the last row.
+    /// Returns the cells of the row that was read last.
     pub(crate) fn row(&self) -> &StringRecord {
         &self.row
     }

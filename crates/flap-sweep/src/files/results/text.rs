@@ -1,4 +1,4 @@
-//! Writes rows as lines of comma-separated values, plain or compressed, into a file with a checksum.
+//! Writes rows as CSV text into a plain or compressed file, and computes the checksum of the file.
 
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Read, Write};
@@ -14,12 +14,14 @@ use crate::table::lines::Lines;
 /// Compression level: Zstandard's default. Higher compression levels take longer and hardly reduce the size.
 const LEVEL: i32 = 3;
 
-/// Binary logarithm of the memory for reading a compressed file (bytes): the limit of the command `zstd`.
+/// Binary logarithm of the largest memory, in bytes, for decompressing a file. The command `zstd` has the
+/// same limit.
 const WINDOW_LOG_MAX: u32 = 27;
 
-/// Writer of one header line, then one line per row.
+/// Writer of CSV text: one header line, then one line per row.
 ///
-/// [`Format::Csv`] is plain text. All formats except [`Format::Csv`] have compressed frames of [`BLOCK_ROWS`] rows.
+/// [`Format::Csv`] is plain text. In all formats except [`Format::Csv`], the text is compressed in frames of
+/// [`BLOCK_ROWS`] rows.
 pub struct TextRows {
     lines: Lines<Frames>,
     rows_in_block: u32,
@@ -34,10 +36,10 @@ impl TextRows {
         TextRows::after(file, format, (Xxh3Default::new(), 0), TextDigest::new())
     }
 
-    /// Returns a writer that continues after `bytes` bytes of `file`, which have the hash `hash` and contain the rows
-    /// `text`.
+    /// Returns a writer that continues `file` after its first `bytes` bytes. `hash` is the hash of these
+    /// bytes, and `text` contains the checksums of their rows.
     ///
-    /// The existing bytes must end at the end of a row and of a frame.
+    /// The first `bytes` bytes must end with a complete row, and in compressed files with a complete frame.
     pub(crate) fn after(
         file: File,
         format: Format,
@@ -55,7 +57,7 @@ impl TextRows {
         Ok(TextRows { lines: Lines::new(frames), rows_in_block: 0 })
     }
 
-    /// Writes the header, which is a separate frame.
+    /// Writes the header line. In compressed files, the header is a separate frame.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -73,7 +75,7 @@ impl TextRows {
         self.end_row()
     }
 
-    /// Writes a row of cells that are not text.
+    /// Writes a row of typed cells, such as numbers, as text.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -91,8 +93,8 @@ impl TextRows {
         Ok(())
     }
 
-    /// Passes rows to the operating system. For compressed files the function does nothing, because a flush would
-    /// change the bytes.
+    /// Passes the buffered rows to the operating system. For compressed files, the function does nothing,
+    /// because an additional frame would change the bytes of the file.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -100,7 +102,8 @@ impl TextRows {
         if self.is_compressed() { Ok(()) } else { self.lines.flush() }
     }
 
-    /// Ends the file, also in the middle of a frame.
+    /// Writes the remaining rows. In compressed files, the last frame may have fewer rows than the other
+    /// frames.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -108,20 +111,22 @@ impl TextRows {
         self.lines.flush()
     }
 
-    /// Returns true if a run that is resumed at this row produces the same bytes as an uninterrupted run.
+    /// Returns true if the file can be cut after the last written row. A run that continues after such a row
+    /// writes the same bytes as an uninterrupted run.
     pub(crate) fn may_be_cut(&self) -> bool {
         !self.is_compressed() || self.rows_in_block == 0
     }
 
-    /// Returns number and checksum of the written bytes. Call [`TextRows::flush`] first if the file may be cut after
-    /// these bytes, so that the bytes contain all rows.
+    /// Returns the number and the checksum of the written bytes. For a checkpoint, call [`TextRows::flush`]
+    /// first, so that these bytes contain all rows.
     pub(crate) fn extent(&self) -> FileSum {
         self.lines.target().file.sum()
     }
 
-    /// Returns the checksums of all rows after [`TextRows::finish`].
+    /// Returns the checksums of all rows. Call [`TextRows::finish`] first.
     ///
-    /// `file` is the checksum of the file that contains the converted rows; `None` for the file written here.
+    /// If the rows were converted into a different file, `file` is the checksum of that file. If `file` is
+    /// `None`, the result contains the checksum of the file that this writer wrote.
     pub(crate) fn checksums(&self, file: Option<FileSum>) -> Checksums {
         let frames = self.lines.target();
         frames.text.checksums(file.or_else(|| Some(frames.file.sum())))
@@ -137,12 +142,12 @@ impl TextRows {
     }
 }
 
-/// A file of text, plain or with one compressed frame from each flush to the next.
+/// A plain or compressed file of text. In a compressed file, all text between two flushes is one frame.
 struct Frames {
     file: Hashed,
     compressor: Option<zstd::bulk::Compressor<'static>>,
     frame: Vec<u8>,
-    /// Digest of the uncompressed text.
+    /// Checksums of the uncompressed text.
     text: TextDigest,
 }
 
@@ -169,16 +174,19 @@ impl Write for Frames {
     }
 }
 
-/// Returns the digest of the text of rows in `source`, which must not be Parquet.
+/// Returns the checksums of the plain or compressed text in `source`. For [`Format::Parquet`], `source` is
+/// the compressed text of the file `<results>.part`, not the Parquet file.
 ///
-/// The function also returns an error if the digest ends where the text cannot be decompressed.
+/// If the text cannot be decompressed to its end, the function also returns an error. The checksums then
+/// cover only the text that was decompressed.
 pub(crate) fn text_sum(source: impl Read, format: Format) -> (TextDigest, io::Result<()>) {
     let mut digest = TextDigest::new();
     let summed = decoded(source, format).and_then(|mut text| io::copy(&mut text, &mut digest));
     (digest, summed.map(|_| ()))
 }
 
-/// Returns the text of rows in `source`, which must not be Parquet.
+/// Returns a reader of the decompressed text in `source`. For [`Format::Parquet`], `source` is the compressed
+/// text of the file `<results>.part`, not the Parquet file.
 pub(super) fn decoded<'a>(source: impl Read + 'a, format: Format) -> io::Result<Box<dyn Read + 'a>> {
     let mut source = BufReader::with_capacity(1 << 16, source);
     match format {
@@ -192,7 +200,7 @@ pub(super) fn decoded<'a>(source: impl Read + 'a, format: Format) -> io::Result<
     }
 }
 
-/// A file that is written from its beginning or its end, with the checksum of its bytes.
+/// A file that is open for writing, with the number and the hash of the bytes that it contains.
 pub(super) struct Hashed {
     pub(super) file: File,
     hash: Xxh3Default,
@@ -200,12 +208,12 @@ pub(super) struct Hashed {
 }
 
 impl Hashed {
-    /// Returns an empty file.
+    /// Returns a [`Hashed`] for an empty file.
     pub(super) fn new(file: File) -> Hashed {
         Hashed { file, hash: Xxh3Default::new(), bytes: 0 }
     }
 
-    /// Returns number and checksum of the bytes in the file.
+    /// Returns the number and the checksum of the bytes in the file.
     pub(super) fn sum(&self) -> FileSum {
         FileSum { bytes: self.bytes, xxh3: digits(self.hash.digest()) }
     }

@@ -8,7 +8,7 @@ use csv::StringRecord;
 use super::{Checked, Checksums, Format, Provenance, Reader, RowCheck, RowsError, TextRows};
 use crate::files::disk;
 
-/// Writer of rows as text to a file of any format.
+/// Writes rows, which are given as text, into a file of any format.
 pub struct Writer(Rows);
 
 enum Rows {
@@ -50,7 +50,7 @@ impl Writer {
         }
     }
 
-    /// Completes the file, makes the file durable, and returns the checksums of the file.
+    /// Completes the file, waits until the file is safe on disk, and returns the checksums of the file.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -67,10 +67,10 @@ impl Writer {
     }
 }
 
-/// Error of rows that cannot be converted.
+/// Reason why rows cannot be converted into a different format.
 #[derive(Debug, thiserror::Error)]
 pub enum ConvertError {
-    /// The rows cannot be read, or do not belong to the plan.
+    /// The rows cannot be read, or are not the rows of the plan.
     #[error(transparent)]
     Rows(#[from] RowsError),
     /// The rows cannot be written.
@@ -78,11 +78,12 @@ pub enum ConvertError {
     Write(#[from] io::Error),
 }
 
-/// Writes the rows of `from` to `to`, which must be empty. If `from` is tolerant, rows that fail `check` are left
+/// Writes the rows of `from` into the empty file `to`. If `from` is tolerant, rows that fail `check` are left
 /// out. Returns the number of rows, and the checksums of the rows and of the file.
 ///
 /// # Errors
-/// - [`ConvertError::Rows`] if `from` cannot be read, has other columns than the plan, or a row that fails `check`.
+/// - [`ConvertError::Rows`] if `from` cannot be read, if its columns differ from the plan's columns, or if a
+///   row fails `check`.
 /// - [`ConvertError::Write`] if `to` cannot be written.
 pub fn convert(
     from: &mut Reader,

@@ -1,8 +1,9 @@
-//! The sidecar, which records the origin of results: `<results>.meta.toml`.
+//! The sidecar `<results>.meta.toml` records the origin of results.
 //!
-//! The sidecar is written when a sweep starts, with `state = "running"`, and again when the sweep ends. Each time, the
-//! sidecar is replaced as a whole, so a reader never gets an incomplete sidecar. The sidecar contains everything for
-//! running the sweep again and checking the results. The first line of a sidecar is the checksum of the other lines.
+//! The sidecar is written when a sweep starts, with `state = "running"`, and again when the sweep ends. Each
+//! new version replaces the whole sidecar at once, so a reader never gets an incomplete sidecar. With the
+//! contents of the sidecar, flap can repeat the sweep and check the results. The first line of a sidecar is
+//! the checksum of the other lines.
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
@@ -39,30 +40,31 @@ pub struct Sidecar {
     pub preset: String,
     /// Number of points of the grid.
     pub points: u64,
-    /// Shard, such as `2/3`; `None` for all points.
+    /// Shard of the sweep, such as `2/3`; `None` if the sweep computes all points.
     pub shard: Option<String>,
     /// Start time of the first session, as RFC 3339 in UTC.
     pub started: String,
     /// End time of the last session, as RFC 3339 in UTC.
     pub finished: Option<String>,
-    /// Total running time of all sessions of the sweep (s).
+    /// Time that all sessions of the sweep have taken together, in seconds.
     pub seconds: Option<f64>,
     /// Number of worker threads.
     pub threads: usize,
-    /// Instruction set of the lanes.
+    /// Name of the processor's instruction set with which the lanes were computed.
     pub instructions: String,
-    /// Path of the file that lists the points of the sample, relative to the working directory, if there is such a
-    /// file.
+    /// Path of the file that lists the points of the sample; `None` if there is no such file. A relative path
+    /// is relative to the working directory.
     pub points_file: Option<String>,
     /// Build, settings and hashes that determine the rows.
     pub identity: Identity,
-    /// Summary of the rows, once the sweep has ended.
+    /// Summary of the rows; `None` until the sweep has ended.
     pub summary: Option<Summary>,
-    /// Points of a rerun.
+    /// Points that were computed again; `None` if the sweep is not a rerun.
     pub rerun: Option<Rerun>,
-    /// Followed parameter, if the points are designs with response curves.
+    /// Parameter along which response curves were computed; `None` if the rows contain no response curves.
     pub followed: Option<Followed>,
-    /// Parameters before the axes are applied, without parameters that are computed from other parameters.
+    /// Base values of the parameters, which apply before the axes vary parameters. Parameters whose values
+    /// are computed are left out.
     parameters: BTreeMap<String, Value>,
     /// Varied parameters.
     varied: Vec<Unit>,
@@ -70,7 +72,7 @@ pub struct Sidecar {
     columns: Vec<Unit>,
     /// Grid file.
     pub grid: Source,
-    /// Devices of the grid: first the device of the grid, then the devices on which this device is based.
+    /// Devices: first the device that the grid names, then the devices on which that device is based.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub devices: Vec<Source>,
     /// Checksums of complete results.
@@ -81,7 +83,7 @@ pub struct Sidecar {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum State {
-    /// The sweep is running, or was killed while running.
+    /// The sweep has not ended, or its process was killed.
     Running,
     /// All rows are written.
     Complete,
@@ -91,16 +93,17 @@ pub enum State {
     Failed,
 }
 
-/// Earlier results that contain the points of a rerun.
+/// Earlier results whose points a rerun computes again.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Origin {
     /// Result file.
     pub of: String,
-    /// Statuses of the points in the earlier results.
+    /// Kinds of rows of the earlier results that the rerun computes again, such as `unsettled` or
+    /// `inaccurate`.
     pub statuses: Vec<String>,
 }
 
-/// Points of a rerun.
+/// Points that a rerun computes again, and the earlier results of these points.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Rerun {
     /// Earlier results.
@@ -108,25 +111,25 @@ pub struct Rerun {
     pub origin: Origin,
     /// Indices of the points, such as `3,17,20-31`.
     pub points: String,
-    /// Points of the refinement, each as a position along each axis.
+    /// Points that a refinement has added. Each point is a list with one position for each axis.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub added: Vec<Vec<f64>>,
 }
 
-/// Parameter that rises and falls in a response, see [`Along`].
+/// Parameter that rises and falls during the computation of response curves: see [`Along`].
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Followed {
     /// Name of the parameter.
     pub parameter: String,
     /// Values, in ascending order.
     pub values: Vec<f64>,
-    /// Largest error of the ends of bistable bands.
+    /// Largest accepted error of the parameter values at which bistable bands end.
     pub tolerance: f64,
-    /// True if unstable orbits of bistable bands are computed.
+    /// True if flap also computes the unstable orbits in bistable bands.
     pub unstable: bool,
 }
 
-/// A column and its unit.
+/// The name and the unit of a column.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 struct Unit {
     name: String,
@@ -140,9 +143,9 @@ impl Unit {
 }
 
 impl Sidecar {
-    /// Returns the contents for a sweep of `plan` that starts at the time `started`.
+    /// Returns the sidecar of a sweep of `plan` that starts at the time `started`.
     ///
-    /// `origin` names the earlier results that contain the points of a rerun.
+    /// For a rerun, `origin` describes the earlier results whose points are computed again.
     pub fn new(plan: &Plan, started: String, options: &RunOptions, origin: Option<Origin>) -> Sidecar {
         let layout = Layout::of(plan);
         let (shard, rerun) = match plan.selection() {
@@ -179,7 +182,7 @@ impl Sidecar {
         }
     }
 
-    /// Records that the sweep ended after `seconds` of running, complete or interrupted.
+    /// Records the end of a complete or interrupted sweep. `seconds` is the duration of the sweep.
     pub fn finish(&mut self, summary: &Summary, finished: String, seconds: f64) {
         self.state = if summary.is_interrupted() { State::Interrupted } else { State::Complete };
         self.summary = Some(summary.clone());
@@ -190,7 +193,7 @@ impl Sidecar {
         self.seconds = Some(seconds);
     }
 
-    /// Records that the sweep failed with the message `error` after `seconds` of running.
+    /// Records that the sweep failed with the message `error`. `seconds` is the duration of the sweep.
     pub fn fail(&mut self, error: String, finished: String, seconds: f64) {
         self.state = State::Failed;
         self.error = Some(error);
@@ -198,29 +201,31 @@ impl Sidecar {
         self.seconds = Some(seconds);
     }
 
-    /// Returns the number of rows of complete results.
+    /// Returns the number of rows of complete results, and `None` for unfinished results.
     pub fn rows(&self) -> Option<u64> {
         let summary = self.summary.as_ref().filter(|_| self.state == State::Complete);
         summary.map(|summary| summary.rows)
     }
 
-    /// Returns the earlier results that contain the points, if these are the results of a rerun.
+    /// For the results of a rerun, returns the earlier results whose points were computed again.
     pub fn origin(&self) -> Option<&Origin> {
         self.rerun.as_ref().map(|rerun| &rerun.origin)
     }
 }
 
-/// Returns the parameter that a plan follows.
+/// Returns the parameter along which a plan computes response curves, or `None` if the plan has no response
+/// curves.
 fn followed(plan: &Plan) -> Option<Followed> {
     let Along { parameter, values, tolerance, unstable } = plan.followed()?.clone();
     let parameter = plan.parameters()[parameter].name.to_owned();
     Some(Followed { parameter, values, tolerance, unstable })
 }
 
-/// Beginning of the first line of a sidecar. The first line is valid TOML, so other TOML readers need no special code.
+/// Beginning of the first line of a sidecar. The first line is valid TOML, so any TOML parser can read the
+/// sidecar.
 const CHECKSUM: &str = "checksum = \"";
 
-/// Error of a file that cannot be used as a sidecar.
+/// Reason why a file cannot be used as a sidecar.
 #[derive(Debug, thiserror::Error)]
 pub enum SidecarError {
     /// The file cannot be read.
@@ -228,7 +233,7 @@ pub enum SidecarError {
     Io {
         /// The file.
         path: PathBuf,
-        /// The error of the operating system.
+        /// Error that the operating system reported.
         source: io::Error,
     },
     /// The file is not a sidecar.
@@ -244,13 +249,13 @@ pub enum SidecarError {
     Damaged {
         /// The file.
         path: PathBuf,
-        /// Description of the change of the grid.
+        /// Description of the damage to the file.
         reason: &'static str,
     },
 }
 
 impl Sidecar {
-    /// Returns the text of the file.
+    /// Returns the text of the sidecar file.
     ///
     /// # Errors
     /// [`toml::ser::Error`] if TOML cannot represent a number, such as 2^63 points.
@@ -269,7 +274,7 @@ impl Sidecar {
         Sidecar::parse(path, &bytes(path)?)
     }
 
-    /// Reads the file without requiring a correct checksum.
+    /// Reads the sidecar at `path`, even if the checksum of the sidecar is wrong.
     ///
     /// # Errors
     /// - [`SidecarError::Io`] if the file cannot be read.
@@ -278,7 +283,7 @@ impl Sidecar {
         Sidecar::parse_damaged(path, &bytes(path)?)
     }
 
-    /// Parses the bytes of the file at `path`, which is named in errors.
+    /// Parses a sidecar from the bytes of a file. Errors contain `path`, the path of the file.
     ///
     /// # Errors
     /// - [`SidecarError::Format`] if the bytes are not a sidecar.
@@ -298,8 +303,8 @@ impl Sidecar {
         Err(damaged("its first line is not its checksum"))
     }
 
-    /// Parses the bytes of the file without its checksum line, or with any checksum line. Bytes that are not UTF-8
-    /// become U+FFFD.
+    /// Parses a sidecar from the bytes of a file, without checking the checksum. The line with the checksum
+    /// may be missing. Bytes that are not UTF-8 become U+FFFD.
     fn parse_damaged(path: &Path, bytes: &[u8]) -> Result<Sidecar, SidecarError> {
         toml::from_str(&String::from_utf8_lossy(bytes)).map_err(|error| SidecarError::Format {
             path: path.to_owned(),
@@ -307,7 +312,7 @@ impl Sidecar {
         })
     }
 
-    /// Writes the file, which replaces an earlier sidecar.
+    /// Writes the sidecar to `path`, and replaces an earlier sidecar.
     ///
     /// # Errors
     /// The error of the operating system if the file cannot be written.
@@ -315,7 +320,8 @@ impl Sidecar {
         self.prepare(path)?.commit()
     }
 
-    /// Writes the file under a temporary name. [`disk::Whole::commit`] gives the sidecar its final name.
+    /// Writes the sidecar into a file with a temporary name. [`disk::Whole::commit`] gives the sidecar its
+    /// final name.
     pub(crate) fn prepare(&self, path: &Path) -> io::Result<disk::Whole> {
         let text = self.text().map_err(io::Error::other)?;
         let whole = disk::Whole::begin(path)?;

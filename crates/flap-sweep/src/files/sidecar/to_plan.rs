@@ -1,4 +1,4 @@
-//! The plan that a sidecar records.
+//! Restores the plan that a sidecar records.
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::Simulator;
@@ -13,19 +13,20 @@ use crate::plan::selection;
 use crate::plan::{Along, Plan, PointsFile};
 use crate::run::identity::{self, Identity};
 
-/// Error of a sidecar whose plan cannot be restored.
+/// Reason why the plan of a sidecar cannot be restored.
 #[derive(Debug, thiserror::Error)]
 pub enum PlanError {
-    /// The recorded grid file has mistakes for this version of flap.
+    /// According to this version of flap, the recorded grid file has mistakes.
     #[error("the recorded grid has mistakes")]
     Grid(Mistakes),
-    /// The recorded grid file and the recorded hash differ.
+    /// The recorded grid file or a recorded device does not have the recorded hash.
     #[error("the recorded grid was edited after the sweep")]
     GridText,
     /// The file that lists the points of the sample has changed.
     #[error("{} has changed since the points were run", .0.as_deref().unwrap_or("its file of points"))]
     PointsFile(Option<String>),
-    /// The grid file does not have the recorded points, solver settings or parameters. The error contains the reason.
+    /// The recorded points, solver settings or parameters do not match the recorded grid file. The error
+    /// contains the reason.
     #[error("the recorded {0}")]
     Changed(&'static str),
 }
@@ -35,11 +36,12 @@ const SOLVER: PlanError = PlanError::Changed("solver settings are outside the li
 const PARAMETERS: PlanError = PlanError::Changed("parameters are not parameters of the model");
 
 impl Sidecar {
-    /// Returns the plan of the recorded rows, with the presets of `models`.
+    /// Returns the plan from which the rows were computed. The grid of the plan may name presets of `models`.
     ///
     /// # Errors
-    /// - [`PlanError::GridText`] if the recorded grid file was edited.
-    /// - [`PlanError::Grid`] if the grid file has mistakes, because it belongs to another version of flap.
+    /// - [`PlanError::GridText`] if the recorded grid file or a recorded device was edited.
+    /// - [`PlanError::Grid`] if the grid file has mistakes, for example because a different version of flap
+    ///   wrote the sidecar.
     /// - [`PlanError::PointsFile`] if the file of points has changed.
     /// - [`PlanError::Changed`] if the solver settings exceed the limits of a grid file.
     /// - [`PlanError::Changed`] if the model of a response lacks a recorded parameter or option.
@@ -70,9 +72,10 @@ impl Sidecar {
         }
     }
 
-    /// Returns the plan whose points are designs with response curves.
+    /// Converts a plan of points into a plan of response curves, with one curve for each design.
     ///
-    /// The plan lacks the axis of the followed parameter, and contains the parameters of the command line.
+    /// The new plan has no axis for the parameter that varies along the curves. Its parameters have the
+    /// values that the sidecar records, which may come from the command line.
     fn follow(&self, followed: &Followed, plan: Plan) -> Option<Plan> {
         let parameter = Parameter::index(plan.parameters(), &followed.parameter)?;
         let (mut plan, _) = plan.without_axis(parameter);
@@ -88,7 +91,7 @@ impl Sidecar {
     }
 }
 
-/// Returns the value of a parameter in a sidecar: a number, or the name of an option.
+/// Converts the value of a parameter in a sidecar, a number or the name of an option, into a number.
 fn number(parameter: &Parameter, recorded: &Value) -> Option<f64> {
     match (recorded, &parameter.kind) {
         (Value::Float(number), _) => Some(*number),

@@ -1,4 +1,4 @@
-//! Rows as typed columns in Parquet files.
+//! Writes rows into the typed columns of Parquet files.
 
 use std::fs::File;
 use std::io;
@@ -23,15 +23,16 @@ mod read;
 
 pub(super) use read::{ParquetReader, sum_up};
 
-/// Number of rows in one row group: a few megabytes in memory, and long enough for fast reading.
+/// Number of rows in one row group. A row group takes a few megabytes of memory, and is large enough for fast
+/// reading.
 const GROUP_ROWS: usize = 1 << 15;
 
-/// Writer of rows in row groups. An empty cell is null.
+/// Writes rows into the row groups of a Parquet file. An empty cell becomes a null value.
 pub(crate) struct ParquetRows {
     writer: SerializedFileWriter<Hashed>,
     columns: Vec<Cells>,
     rows: usize,
-    /// Digest of the rows as text.
+    /// Checksums of the rows as CSV text.
     text: Lines<TextDigest>,
 }
 
@@ -74,7 +75,7 @@ impl ParquetRows {
         if self.rows == GROUP_ROWS { self.write_group() } else { Ok(()) }
     }
 
-    /// Completes the file, makes the file durable, and returns the checksums of the file.
+    /// Completes the file, waits until the file is safe on disk, and returns the checksums of the file.
     pub(crate) fn finish(mut self) -> io::Result<Checksums> {
         if self.rows > 0 {
             self.write_group()?;
@@ -101,7 +102,7 @@ impl ParquetRows {
 struct Cells {
     column: Column,
     values: Values,
-    /// One entry per row: 1 for a value, 0 for null.
+    /// One entry per row: 1 if the cell has a value, 0 if the cell is empty.
     levels: Vec<i16>,
 }
 
@@ -112,7 +113,7 @@ enum Values {
     Text(Vec<ByteArray>),
 }
 
-/// Returns the column's entry in the schema of a file.
+/// Returns the entry of the column in the schema of a Parquet file.
 fn field(column: &Column) -> Result<Type, ParquetError> {
     let (physical, logical) = match column.kind {
         CellKind::Whole => (Physical::INT64, Some(LogicalType::integer(64, false))),
@@ -138,7 +139,7 @@ impl Cells {
         Cells { column: column.clone(), values, levels: Vec::new() }
     }
 
-    /// Adds a cell. An empty cell is null.
+    /// Adds a cell. An empty cell becomes a null value.
     fn push(&mut self, cell: &str) -> io::Result<()> {
         self.levels.push(i16::from(!cell.is_empty()));
         if cell.is_empty() {
@@ -158,7 +159,7 @@ impl Cells {
         Ok(())
     }
 
-    /// Writes the cells as the next column, and clears the cells.
+    /// Writes the cells as the next column of the row group, then removes the cells from memory.
     fn write(&mut self, mut writer: SerializedColumnWriter<'_>) -> io::Result<()> {
         fn write<T: DataType>(
             writer: &mut SerializedColumnWriter<'_>,
@@ -181,7 +182,8 @@ impl Cells {
     }
 }
 
-/// Returns the error of the operating system, or [`io::ErrorKind::InvalidData`] with the mistake in the file.
+/// Converts an error of the parquet crate into an I/O error. The result is the error of the operating system,
+/// or [`io::ErrorKind::InvalidData`] with the mistake in the file.
 fn io_error(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(cause) => match cause.downcast::<io::Error>() {

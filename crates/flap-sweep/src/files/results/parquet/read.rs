@@ -21,8 +21,8 @@ use crate::files::results::checksum::TextDigest;
 use crate::notation::text;
 use crate::table::lines::Lines;
 
-/// Reads rows as the text from which the file was written. Files of other programs are accepted if their cells are
-/// numbers, booleans or text.
+/// Reads the rows of a Parquet file as CSV text. For a file of flap, the text equals the text from which the
+/// file was written. Files of other programs are accepted if their cells are numbers, booleans or text.
 pub(crate) struct ParquetReader {
     /// Column names.
     pub(crate) names: Vec<String>,
@@ -66,13 +66,13 @@ impl ParquetReader {
     }
 }
 
-/// Rejects columns whose cells flap does not read.
+/// Returns an error if the file has a column whose type flap cannot read.
 fn refuse_other_kinds(schema: &Type) -> io::Result<()> {
     let other = schema.get_fields().iter().find(|column| !is_read(column));
     other.map_or(Ok(()), |column| Err(other_kind(column.name())))
 }
 
-/// Returns true if [`ParquetReader::next`] reads the cells of a column.
+/// Returns true if [`ParquetReader::next`] can read the cells of this column.
 fn is_read(column: &Type) -> bool {
     use ConvertedType::{ENUM, INT_32, INT_64, JSON, NONE, UINT_32, UINT_64, UTF8};
     let about = column.get_basic_info();
@@ -91,7 +91,7 @@ fn is_read(column: &Type) -> bool {
     }
 }
 
-/// Returns the error for a column with a type of cells that flap cannot read.
+/// Returns the error for a column whose type flap cannot read.
 fn other_kind(column: &str) -> io::Error {
     let message = format!(
         "column {column} cannot be read: cells are whole numbers and floating-point ones of 32 or 64 bits, flags, and text"
@@ -99,7 +99,7 @@ fn other_kind(column: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, message)
 }
 
-/// Rejects files with a compression that flap does not support.
+/// Returns an error if the file has a compression that flap does not support.
 fn refuse_compression(metadata: &ParquetMetaData) -> io::Result<()> {
     let columns = metadata.row_groups().iter().flat_map(RowGroupMetaData::columns);
     let other = columns.map(ColumnChunkMetaData::compression).find(|compression| {
@@ -115,8 +115,8 @@ fn refuse_compression(metadata: &ParquetMetaData) -> io::Result<()> {
     Err(io::Error::new(io::ErrorKind::InvalidData, message))
 }
 
-/// Returns the digest of the rows in a file as text, and an error if the digest ends where the file cannot be
-/// decoded.
+/// Returns the checksums of the rows in a file as CSV text. If the file cannot be decoded to its end, the
+/// function also returns an error. The checksums then cover only the rows that were decoded.
 pub(crate) fn sum_up(file: File) -> (TextDigest, io::Result<()>) {
     let mut lines = Lines::new(TextDigest::new());
     let summed = ParquetReader::new(file).and_then(|mut reader| {
@@ -136,7 +136,8 @@ thread_local! {
     static IS_GUARDED: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Runs `decode` on a file that may be damaged. A panic in `decode` becomes an error and is not printed.
+/// Calls `decode`, which reads a file that may be damaged. A panic in `decode` becomes an error and is not
+/// printed.
 ///
 /// After a panic, the reader that `decode` used must not be used again.
 fn guarded<T>(decode: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
@@ -160,15 +161,16 @@ fn guarded<T>(decode: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
     })
 }
 
-/// Largest size of a decompressed page: 256 MiB. Pages of other programs have about 1 MiB, and pages of flap are
-/// smaller.
+/// Largest accepted size of a decompressed page of a Parquet file: 256 MiB. Pages that other programs write
+/// have about 1 MiB, and pages that flap writes are smaller.
 const LARGEST_PAGE: u64 = 256 << 20;
 
-/// First byte of a field that is a whole number and follows the previous field, in Thrift's compact protocol.
+/// First byte of a field in Thrift's compact protocol. The byte says that the field is an integer, and that
+/// its number is one more than the number of the previous field.
 const NEXT_NUMBER: u8 = 0x15;
 
-/// A file that rejects pages of too many declared bytes, because a few compressed bytes can expand to any number of
-/// bytes.
+/// A Parquet file from which only pages of a limited size are read. The limit is necessary, because a few
+/// compressed bytes can expand to a page of any size.
 struct Limited(File);
 
 impl Length for Limited {
@@ -199,9 +201,11 @@ impl ChunkReader for Limited {
     }
 }
 
-/// Returns the size of a decompressed page, which is the second field of the page's header.
+/// Reads the size of the decompressed page from the header of a page. The size is the second field of the
+/// header.
 ///
-/// `None` if the bytes are no header, so that the parquet crate reports the mistake.
+/// Returns `None` if the bytes are not the header of a page. In this case, the parquet crate reports the
+/// mistake.
 fn declared(header: &[u8]) -> Option<u64> {
     let (_, rest) = number(header)?;
     let (size, _) = number(rest)?;
@@ -209,7 +213,7 @@ fn declared(header: &[u8]) -> Option<u64> {
     (size & 1 == 0).then_some(size >> 1)
 }
 
-/// Returns a whole number and the bytes after the number.
+/// Returns the integer at the beginning of `bytes`, and the bytes after the integer.
 fn number(bytes: &[u8]) -> Option<(u64, &[u8])> {
     let (&kind, bytes) = bytes.split_first()?;
     let length = bytes.iter().take(5).position(|byte| byte & 0x80 == 0)? + 1;
@@ -234,7 +238,7 @@ mod tests {
         assert!(panic::catch_unwind(|| panic!("printed again")).is_err());
     }
 
-    /// Returns the header of a dictionary page of this size, in Thrift's compact protocol.
+    /// Returns the header of a dictionary page with the given size, in Thrift's compact protocol.
     fn header(size: usize) -> Vec<u8> {
         let number = |mut rest: usize| {
             let mut bytes = vec![NEXT_NUMBER];
