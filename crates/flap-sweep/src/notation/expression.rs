@@ -1,11 +1,14 @@
-//! Expressions of grid files: `1.52e-6 * (transmission_ratio / preset.transmission_ratio)^-1.47`.
+//! Parses and evaluates expressions in grid files, such as
+//! `1.52e-6 * (transmission_ratio / preset.transmission_ratio)^-1.47`.
 //!
-//! An expression is checked once, when the expression is read: names are looked up, and numbers are distinguished from
-//! conditions. The result is a flat list of operations. Elementary functions come from `libm`, so values have the same
-//! bits on every machine. See `docs/reference/grid.md` for the language of expressions.
+//! flap checks an expression once, when it reads the grid file. The check finds unknown names, and conditions
+//! in place of numbers. A parsed expression is a flat list of operations. Functions such as `sin` come from
+//! `libm`, so the values of expressions have the same bits on every machine. See `docs/reference/grid.md` for
+//! the language of expressions.
 //!
-//! Operations on NaN give NaN. A comparison with NaN is unknown: neither true nor false. `and`, `or` and `not` of
-//! unknown conditions are unknown, unless the other operand determines the result.
+//! Operations on NaN give NaN. A comparison with NaN is unknown: neither true nor false. If an operand of
+//! `and`, `or` or `not` is unknown, the result is unknown, unless the second operand alone determines the
+//! result.
 
 mod error;
 mod evaluate;
@@ -23,7 +26,7 @@ pub(crate) use evaluate::of_choice;
 use parse::{Token, Tokens};
 pub use scope::{Kind, Meaning, Scope};
 
-/// Returns true if `name` is allowed for a new name in expressions.
+/// Returns true if a grid file may define a new name `name` for use in expressions.
 pub fn is_free_name(name: &str) -> bool {
     let mut characters = name.chars();
     characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
@@ -33,7 +36,8 @@ pub fn is_free_name(name: &str) -> bool {
         && name != evaluate::PI.0
 }
 
-/// Returns the positions of the bytes of the units after numbers in the expression `text`, up to the first mistake.
+/// Finds the units after numbers in the expression `text`, such as `Hz` in `95 Hz`. Returns the byte ranges
+/// of the units before the first mistake.
 pub fn units_in(text: &str) -> Vec<Range<usize>> {
     let mut tokens = Tokens::new(text, true);
     let mut found = Vec::new();
@@ -53,15 +57,16 @@ pub fn units_in(text: &str) -> Vec<Range<usize>> {
 pub struct Expression {
     kind: Kind,
     operations: Vec<Operation>,
-    /// Positions of the bytes of the comparisons of two numbers, in the order of the text.
+    /// Byte ranges of all comparisons of two numbers, in the order of the text.
     comparisons: Vec<Range<usize>>,
 }
 
 impl Expression {
-    /// Checks the expression `text`, whose names must be in `scope`.
+    /// Parses and checks the expression `text`. All names in `text` must be in `scope`.
     ///
     /// # Errors
-    /// All mistakes in names, or the first mistake of another kind. Spans are positions of bytes in `text`.
+    /// Returns all mistakes up to the first mistake in the syntax. The spans of the mistakes are byte ranges
+    /// in `text`.
     pub fn parse(text: &str, scope: &dyn Scope) -> Result<Expression, Vec<ExpressionError>> {
         let (kind, operations, comparisons) = parse::parse(text, scope)?;
         Ok(Expression { kind, operations, comparisons })
@@ -72,7 +77,8 @@ impl Expression {
         self.kind
     }
 
-    /// Returns the indices of the values that the expression reads, in the order of the text.
+    /// Returns the indices of the values that the expression uses, in the order of the text. The same index
+    /// may occur several times.
     pub fn reads(&self) -> impl Iterator<Item = usize> + '_ {
         self.operations.iter().filter_map(|operation| match operation {
             Operation::Read(place) | Operation::ReadOf(place, _) => Some(*place),
@@ -80,14 +86,15 @@ impl Expression {
         })
     }
 
-    /// Returns the value of the expression for the given `values` of names. The value is a number, 1 for true, 0 for
-    /// false, or NaN if unknown.
+    /// Returns the value of the expression. `values` contains the values of the names. The value of a
+    /// condition is 1 for true, 0 for false, and NaN for unknown.
     pub fn value(&self, values: &[f64]) -> f64 {
         evaluate::evaluate(&self.operations, values)
     }
 
-    /// The comparisons that must all hold, each with the position of its bytes in the text. `None` if the expression is
-    /// not made of comparisons by `<`, `<=`, `>` and `>=` that are joined with `and`.
+    /// Splits a condition such as `1 < x and x <= 2` into its comparisons, each with its byte range in the
+    /// text. Returns `None` if the condition contains operators such as `or` or `==`, so that it is not a
+    /// list of inequalities.
     pub(crate) fn comparisons(&self) -> Option<Vec<(Range<usize>, Comparison)>> {
         let comparisons = comparisons(&self.operations)?;
         Some(self.comparisons.iter().cloned().zip(comparisons).collect())
@@ -101,13 +108,13 @@ pub(crate) struct Comparison {
     pub(crate) less: Expression,
     /// The side of the comparison that must be larger.
     pub(crate) more: Expression,
-    /// True if the two sides of the comparison must not be equal.
+    /// True for `<` and `>`, which do not allow equal sides; false for `<=` and `>=`.
     pub(crate) is_strict: bool,
-    /// True if the side that must be larger is on the right.
+    /// True for `<` and `<=`, whose larger side is on the right; false for `>` and `>=`.
     pub(crate) is_rising: bool,
 }
 
-/// The comparisons in `operations`, see [`Expression::comparisons`].
+/// Returns the comparisons in `operations` without their byte ranges: see [`Expression::comparisons`].
 fn comparisons(operations: &[Operation]) -> Option<Vec<Comparison>> {
     let (Operation::Binary(operator), rest) = operations.split_last()? else { return None };
     let (left, right) = evaluate::operands(rest)?;

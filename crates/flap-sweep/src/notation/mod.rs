@@ -1,4 +1,4 @@
-//! Numbers, units, times and formulas as text.
+//! Reads and writes numbers, units, times and formulas as text.
 
 pub mod expression;
 pub mod text;
@@ -8,7 +8,7 @@ pub mod value;
 
 pub use text::nearest;
 
-/// A mistake of the user, with advice.
+/// A message about a mistake of the user, with advice.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct UserError {
@@ -19,7 +19,7 @@ pub struct UserError {
 }
 
 impl UserError {
-    /// Returns a mistake with advice, or without advice.
+    /// Returns an error with the given message. `help` is the advice, if there is advice.
     pub(crate) fn new(message: String, help: Option<&str>) -> UserError {
         UserError { message, help: help.map(str::to_owned) }
     }

@@ -1,5 +1,5 @@
-//! Numbers and options as text, for result files and the terminal. This module also contains functions for similar
-//! names, and for positions in texts.
+//! Converts numbers and options to text, for result files and the terminal. This module also contains
+//! functions that find similar names, and that find the line and column of a byte in a text.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
@@ -10,11 +10,12 @@ use xxhash_rust::xxh3::xxh3_64;
 
 use super::units::prefixed;
 
-/// Returns the shortest decimal text that reads back as the same number.
+/// Returns the shortest decimal text from which the same number can be read.
 ///
-/// Numbers from 1e-4 up to 1e9 are written in full (`0.0012`, `100.0`), other numbers with an exponent (`1.52e-6`,
-/// `1.43e10`). The text always has a point or an exponent, so that programs that infer column types from the first
-/// rows infer floats. NaN is the empty text, which is an empty cell.
+/// Numbers from 1e-4 up to 1e9 are written in full (`0.0012`, `100.0`), other numbers with an exponent
+/// (`1.52e-6`, `1.43e10`). The text of a finite number always contains a point or an exponent. Programs that
+/// infer the type of a column from its first rows therefore infer a float. The text of NaN is empty, so its
+/// cell is empty.
 ///
 /// ```
 /// assert_eq!(flap_sweep::notation::text::float(120.0), "120.0");
@@ -27,7 +28,7 @@ pub fn float(value: f64) -> String {
     text
 }
 
-/// Appends the text of [`float`] to `text`.
+/// Appends `value` to `text` in the format of [`float`].
 pub(crate) fn push_float(text: &mut String, value: f64) {
     let size = value.abs();
     // In other ranges, zmij's format differs: zeros instead of an exponent, or a plus sign in the exponent.
@@ -42,7 +43,7 @@ pub(crate) fn push_float(text: &mut String, value: f64) {
     }
 }
 
-/// Returns the same text as [`float`] for all numbers, but is several times slower.
+/// Returns the same text as [`float`] for all numbers, but is several times slower than [`float`].
 fn float_by_standard_library(value: f64) -> String {
     if value.is_nan() {
         return String::new();
@@ -58,7 +59,7 @@ fn float_by_standard_library(value: f64) -> String {
     text
 }
 
-/// Returns a number with a noun in singular or plural: `1 row`, `2 rows`.
+/// Returns a number and a noun in the singular or the plural, such as `1 row` or `2 rows`.
 ///
 /// ```
 /// assert_eq!(flap_sweep::notation::text::count(1, "periodic row"), "1 periodic row");
@@ -68,11 +69,11 @@ pub fn count(number: u64, thing: &str) -> String {
     if number == 1 { format!("1 {thing}") } else { format!("{number} {thing}s") }
 }
 
-/// Largest number of names in a message.
+/// Largest number of names that a message lists.
 const MOST_NAMES: usize = 20;
 
-/// Returns at most 20 names for a message, the number of further names, and the word `thing`, such as `a, b and 3 more
-/// columns`.
+/// Returns a list of names for a message, such as `a, b and 3 more columns`. The list contains at most 20
+/// names, and `thing` is the noun for the further names.
 pub fn listed<'n>(names: impl IntoIterator<Item = &'n str>, thing: &str) -> String {
     let mut names = names.into_iter();
     let first: Vec<&str> = names.by_ref().take(MOST_NAMES).collect();
@@ -91,13 +92,15 @@ pub fn truth(value: f64) -> String {
     (value != 0.0).to_string()
 }
 
-/// Length in characters above which words are shortened. Few paths are longer than this length.
+/// Words with more characters than this number are shortened in messages. Only few file paths have more
+/// characters.
 const LONGEST_WORD: usize = 300;
 
-/// Number of characters at the beginning and at the end of a shortened word.
+/// Numbers of characters that are kept at the beginning and at the end of a shortened word.
 const ENDS: [usize; 2] = [60, 20];
 
-/// Returns a message with its longest words shortened, because names in a file may have any length.
+/// Returns a message whose longest words are shortened. Shortening is necessary because names in a user's
+/// file may have any length.
 pub fn shortened(message: &str) -> Cow<'_, str> {
     if message.split_whitespace().all(|word| word.len() <= LONGEST_WORD) {
         return Cow::Borrowed(message);
@@ -116,7 +119,8 @@ pub fn shortened(message: &str) -> Cow<'_, str> {
     Cow::Owned(text)
 }
 
-/// Returns a text with its control characters escaped, such as `\u{1b}`, for XML and terminals.
+/// Returns a text in which escapes such as `\u{1b}` replace control characters, so that the text is safe for
+/// XML and terminals.
 pub fn printable(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -129,7 +133,7 @@ pub fn printable(text: &str) -> String {
     out
 }
 
-/// Returns the value of a parameter: a number, or the name of an option.
+/// Returns the value of a parameter as text: a number, or the name of an option.
 pub fn value(parameter: &Parameter, value: f64) -> String {
     match option(parameter, value) {
         Some(name) => name.to_owned(),
@@ -137,8 +141,8 @@ pub fn value(parameter: &Parameter, value: f64) -> String {
     }
 }
 
-/// Returns the value of a parameter for people: six digits with prefix and unit, such as `1.52 uN*m/rad`, or the name of
-/// an option.
+/// Returns the value of a parameter as text for people. The text is a number with six digits, a prefix and a
+/// unit, such as `1.52 uN*m/rad`, or the name of an option.
 pub fn shown(parameter: &Parameter, value: f64) -> String {
     match option(parameter, value) {
         Some(name) => name.to_owned(),
@@ -146,7 +150,7 @@ pub fn shown(parameter: &Parameter, value: f64) -> String {
     }
 }
 
-/// Returns the value of a solver setting: a number, `true` or `false`.
+/// Returns the value of a solver setting as text: a number, `true` or `false`.
 pub fn setting(kind: SettingKind, settings: &SolverSettings) -> String {
     match kind {
         SettingKind::Number { get, .. } => float(get(settings)),
@@ -155,8 +159,8 @@ pub fn setting(kind: SettingKind, settings: &SolverSettings) -> String {
     }
 }
 
-/// Returns the reason why an unset parameter has no number. The reason is for parameters that are not computed from
-/// other parameters.
+/// Returns the reason why a parameter has no default value. Returns `None` if the value of the parameter is
+/// computed from other parameters.
 ///
 /// `follows` is the text of [`Kind::Following`].
 pub(crate) fn no_default(follows: &str) -> Option<String> {
@@ -164,7 +168,7 @@ pub(crate) fn no_default(follows: &str) -> Option<String> {
     reason.or_else(|| (follows == "not known").then(|| "it has no default".to_owned()))
 }
 
-/// Returns the option with the index `value`, if the parameter is a choice.
+/// Returns the name of the option with the index `value`, or `None` if the parameter is not a choice.
 pub fn option<'p>(parameter: &Parameter<'p>, value: f64) -> Option<&'p str> {
     let Kind::Choice(options) = parameter.kind else { return None };
     // Comparing numbers avoids a cast that could be out of range.
@@ -181,17 +185,18 @@ pub(crate) fn digits(hash: u64) -> String {
     format!("{hash:016x}")
 }
 
-/// Length in bytes above which a name is not compared with other names.
+/// Names with more bytes than this number are not compared with other names.
 const LONGEST_NAME: usize = 200;
 
-/// Length in bytes below which a name is not searched for within other names, because short text occurs in too many
-/// names.
+/// Names with fewer bytes than this number are not searched for within other names, because a short text
+/// occurs in too many names.
 const SHORTEST_PART: usize = 4;
 
-/// Returns the most similar name among `names`, if one of `names` is close to `name`.
+/// Returns the name in `names` that is most similar to `name`, or `None` if no name is similar.
 ///
-/// The function prefers the mean of a measure (`lift_mean_mn` for `lift`), then the first name that begins with `name`.
-/// Further choices are the first name that contains `name` as a word, and the closest spelling.
+/// The function prefers the mean of a measure (`lift_mean_mn` for `lift`), then the first name that begins
+/// with `name`. If no name begins with `name`, the function chooses the first name that contains `name` as a
+/// word. The last choice is the name with the closest spelling.
 pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     // The time of a comparison is proportional to the product of both lengths.
     if name.len() > LONGEST_NAME {
@@ -221,7 +226,8 @@ pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Opti
         .map(|(_, candidate)| candidate)
 }
 
-/// Returns line and column of a byte of `text`, both counted from 1. Columns count characters.
+/// Returns the line and the column of a byte of `text`. Lines and columns are counted from 1. Columns count
+/// characters.
 pub(crate) fn position(text: &str, byte: usize) -> (usize, usize) {
     let mut end = byte.min(text.len());
     while !text.is_char_boundary(end) {
@@ -241,8 +247,8 @@ mod tests {
 
     use super::*;
 
-    /// Numbers with random bits, typical values in rows, and numbers with few bits. Some numbers with few bits are
-    /// half-way between two texts.
+    /// Generates numbers with random bits, numbers that are typical of rows, and numbers with few bits. Some
+    /// of the numbers with few bits lie half-way between two decimal texts.
     fn numbers() -> impl Strategy<Value = f64> {
         let few_bits = (any::<i64>(), 10..64_u32, -80..40_i32)
             .prop_map(|(bits, dropped, exponent)| (bits >> dropped) as f64 * f64::from(exponent).exp2());

@@ -1,8 +1,8 @@
-//! Points in time, as text.
+//! Converts times to text.
 
 use std::time::{Duration, SystemTime};
 
-/// Returns the current time as RFC 3339 in UTC: `2026-01-02T03:04:05Z`.
+/// Returns the current time in UTC in the format of RFC 3339, such as `2026-01-02T03:04:05Z`.
 pub fn now() -> String {
     let since_1970 = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or(Duration::ZERO);
     utc(since_1970.as_secs())

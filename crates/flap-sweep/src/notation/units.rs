@@ -1,8 +1,8 @@
-//! Quantities with units in grid files: `"200 V"`, `"1.52 uN*m/rad"`, `"45 °"`.
+//! Parses quantities with units in grid files, such as `"200 V"`, `"1.52 uN*m/rad"` or `"45 °"`.
 //!
-//! A quantity is a number, then a unit: symbols with SI prefixes, joined by `*`, `·` and `/`, with powers such as
-//! `^2` or `²`. Powers of ten of units are applied to the text of the number, before the number is rounded to a float.
-//! For example, `"135 um"` is exactly the float `135e-6`.
+//! A quantity is a number followed by a unit. A unit consists of symbols with SI prefixes, joined by `*`, `·`
+//! and `/`, with powers such as `^2` or `²`. SI prefixes change the exponent in the text of the number,
+//! before the number is rounded to a float. For example, `"135 um"` is exactly the float `135e-6`.
 
 mod number;
 mod prefixed;
@@ -15,16 +15,17 @@ pub(crate) use number::{decimal, scan};
 pub use prefixed::{exact, meant, prefixed};
 use unit::Unit;
 
-/// Returns the value in SI units of the quantity `text`, whose dimension must match `si_unit`.
+/// Returns the value of the quantity `text` in SI units. The unit in `text` must have the same dimension as
+/// `si_unit`.
 ///
-/// An empty `si_unit` means a pure number. `text` may have no unit only if `si_unit` is empty.
+/// If `si_unit` is empty, the quantity is a pure number. Only for a pure number, `text` may contain no unit.
 ///
-/// If `si_unit` is not a unit of flap, such as `rpm` in a model of another program, `text` must have exactly this
-/// unit.
+/// If flap does not know the unit `si_unit`, such as `rpm` in a model of another program, the unit in `text`
+/// must be exactly `si_unit`.
 ///
 /// # Errors
-/// Returns an error if `text` has no number, if its unit is unknown, malformed or wrong, or if its value is not a
-/// finite float. Spans are positions of bytes in `text`.
+/// Returns an error if `text` has no number, if its unit is unknown, malformed or wrong, or if its value is
+/// not a finite float. The span of the error is a byte range in `text`.
 pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     let start = text.len() - text.trim_start().len();
     parse_trimmed(text.trim(), si_unit).map_err(|error| offset(error, start))
@@ -68,7 +69,8 @@ fn parse_trimmed(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     }
 }
 
-/// Returns the value in `unit` of the quantity `text`. The unit may have a prefix or a factor, such as `mN` or `deg`.
+/// Returns the value of the quantity `text` in the unit `unit`. `unit` need not be an SI unit without a
+/// prefix: for example, `mN` and `deg` are allowed.
 ///
 /// # Errors
 /// Returns the errors of [`parse_as`].
@@ -81,7 +83,8 @@ pub fn parse_in(text: &str, unit: &str) -> Result<f64, UnitError> {
     Ok(parse_as(text, unit)? / parse_as(&format!("1 {unit}"), unit).unwrap_or(1.0))
 }
 
-/// Returns the value in SI units of the quantity `text`, or of a number in SI units without a unit.
+/// Returns the value of the quantity `text` in SI units. If `text` contains no unit, the number in `text` is
+/// already in SI units.
 ///
 /// # Errors
 /// Returns the errors of [`parse_as`], except the error about a missing unit.
@@ -114,9 +117,9 @@ fn offset(error: UnitError, start: usize) -> UnitError {
     UnitError { span: from + start..end + start, ..error }
 }
 
-/// Adds suggestions to an unknown unit within `text`.
+/// Adds suggestions to the error about an unknown unit in `text`.
 ///
-/// Units that give the whole quantity the dimension of `si_unit` come first.
+/// The function prefers suggestions with which the whole unit has the dimension of `si_unit`.
 fn with_suggestion(mut error: UnitError, text: &str, si_unit: &str, wanted: Unit) -> UnitError {
     let span = error.span.clone();
     if let UnitProblem::UnknownUnit { unit, nearest, usual } = &mut error.problem {

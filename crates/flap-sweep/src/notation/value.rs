@@ -1,10 +1,11 @@
-//! Values of parameters: parsed from text, and checked against the parameter's range or options.
+//! Parses values of parameters from text, and checks the values against the range or the options of the
+//! parameter.
 
 use flap_core::parameter::{Kind, Parameter, Range};
 
 use super::units::{self, UnitError};
 
-/// A text or number that is not a valid value of a parameter.
+/// Reason why a text or a number is not a valid value of a parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ValueError {
     /// The text is not the name of an option.
@@ -26,7 +27,8 @@ pub enum ValueError {
 }
 
 impl ValueError {
-    /// Returns the message about the parameter called `name`. `shown` is the text of a number that is out of range.
+    /// Returns the message about the parameter called `name`. If a number is out of range, the message
+    /// contains the text `shown` of the number.
     pub fn message(&self, name: &str, shown: &str) -> String {
         match self {
             ValueError::NoOption { text, .. } => format!("`{name}` has no option `{text}`"),
@@ -50,15 +52,16 @@ impl ValueError {
 /// Rule for the units of numbers in text.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UnitOf<'a> {
-    /// Text must have the unit, unless the parameter is a pure number.
+    /// The text must contain a unit, unless the parameter is a pure number.
     Text,
-    /// Text may have the unit, or may be a number in SI units.
+    /// The text contains a unit, or is a number in SI units.
     TextOrSi,
-    /// The text of a cell is a number without a unit. The variant contains the unit of the numbers.
+    /// The text is a cell of a table, and contains a number without a unit. The variant contains the unit of
+    /// the table's column.
     Column(&'a str),
 }
 
-/// Returns the value of `parameter` in `text`: a number in SI units, or the index of an option.
+/// Parses a value of `parameter` from `text`. The value is a number in SI units, or the index of an option.
 ///
 /// # Errors
 /// [`ValueError`] if the text names no option, does not have the parameter's dimension, or is out of range.
@@ -80,7 +83,8 @@ fn no_option(text: &str, options: &[&str]) -> ValueError {
     ValueError::NoOption { text: text.to_owned(), options }
 }
 
-/// Returns the number, if `parameter` accepts the number: a number in SI units, or the index of an option.
+/// Returns `value` if it is allowed for `parameter`. The value is a number in SI units, or the index of an
+/// option.
 ///
 /// # Errors
 /// [`ValueError::OutOfRange`] if the number is out of range, [`ValueError::NoOption`] if no option has this index.

@@ -5,13 +5,13 @@ use super::colours::{DARK, SERIES};
 /// Name and colour of a branch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Branch {
-    /// Name in the column `branch` and in legends.
+    /// Name of the branch in the column `branch` and in legends.
     pub name: &'static str,
-    /// Colour in a picture of one design.
+    /// Colour of the branch in a picture of one design.
     pub colour: &'static str,
 }
 
-/// All branches, in the order of drawing.
+/// All branches, in the order in which pictures draw the branches.
 pub const BRANCHES: [Branch; 3] = [
     Branch { name: "up", colour: SERIES[0] },
     Branch { name: "down", colour: SERIES[1] },
@@ -25,24 +25,27 @@ pub struct Way<'a> {
     pub x: &'a [f64],
     /// Values of the measure; NaN if missing.
     pub y: &'a [f64],
-    /// Column `bistable`: true if the branches up and down have different motions.
+    /// Values of the column `bistable`. A value is true if the motions of the branches `up` and `down`
+    /// differ.
     pub bistable: &'a [bool],
 }
 
-/// Bands and jumps: the differences between the branches up and down.
+/// Differences between the branches `up` and `down`: bistable bands, and jumps to the motion of the other
+/// branch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
-    /// First and last value of each interval in which the branches differ.
+    /// Bistable bands: the first and the last parameter value of each interval in which the branches differ.
     pub bands: Vec<(f64, f64)>,
-    /// Rows of the branch up after which this branch jumps to the motion of the other branch, and the same rows of the
-    /// branch down.
+    /// Indices of the rows after which a branch jumps to the motion of the other branch: first for the branch
+    /// `up`, then for the branch `down`.
     ///
-    /// The branches differ at each of these rows, and agree at the next row.
+    /// In the row before a jump, the motions of the two branches differ. In the row after the jump, the
+    /// motions are equal.
     pub jumps: [Vec<usize>; 2],
 }
 
-/// Returns the bands and jumps of the branches up and down. Both branches must have the same parameter values. A single
-/// branch has no bands and no jumps.
+/// Returns the bistable bands and the jumps of the branches `up` and `down`. Both branches must have the same
+/// parameter values. If one of the two branches has no rows, there are no bands and no jumps.
 pub fn compared(up: Way<'_>, down: Way<'_>) -> Comparison {
     if up.x.is_empty() || down.x.is_empty() {
         return Comparison { bands: Vec::new(), jumps: [Vec::new(), Vec::new()] };

@@ -1,9 +1,11 @@
 //! Colours of lines, points and cells.
 
-/// Colours of series that are distinct for any colour vision (Okabe and Ito), the darker colours first.
+/// Colours for different lines of a picture, which people with any colour vision can distinguish (Okabe and
+/// Ito). The darker colours come first, except black, which is the last colour.
 pub const SERIES: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"];
 
-/// Colour of lines and letters over a picture: fronts, percentiles, unstable orbits.
+/// Colour of lines and letters that are drawn over a picture, such as Pareto fronts, percentiles and unstable
+/// orbits.
 pub const DARK: &str = "#222222";
 
 /// Default colour of points and bars.
@@ -15,20 +17,22 @@ pub const MISSING: &str = "#c9c9c9";
 /// Colour of bistable bands, which have two stable motions.
 pub const BISTABLE: &str = "#f3e3b3";
 
-/// Part of the sequential colour map that is used for lines. The lightest colours of the map are hard to see on white.
+/// Fraction of the sequential colour map that lines use. Lines do not use the lightest colours of the map,
+/// because these colours are hard to see on white.
 pub const MOST_OF_MAP: f64 = 0.88;
 
-/// Returns the position in the sequential map, from 0 to [`MOST_OF_MAP`], of line `index` of `count` ordered lines.
+/// Returns the position of a line's colour in the sequential colour map, from 0 to [`MOST_OF_MAP`]. `index`
+/// is the position of the line among `count` ordered lines, counted from 0.
 ///
-/// `None` for a single line, which has the first colour of [`SERIES`].
+/// Returns `None` for a single line, because a single line has the first colour of [`SERIES`].
 pub fn shade(index: usize, count: usize) -> Option<f64> {
     (count > 1).then(|| MOST_OF_MAP * index as f64 / (count - 1) as f64)
 }
 
-/// Returns true if numbers from `low` to `high` have both signs.
+/// Returns true if the range from `low` to `high` contains both negative and positive numbers.
 ///
-/// For numbers with both signs, the colour map is diverging, with zero in the middle. The smaller side must be at least
-/// 2 % of the larger side.
+/// For numbers with both signs, pictures use a diverging colour map with zero in the middle. The result is
+/// true only if the part of the range on each side of zero is more than 2 % of the larger part.
 pub fn is_signed(low: f64, high: f64) -> bool {
     const LEAST: f64 = 0.02;
     low < 0.0 && high > 0.0 && (-low).min(high) > LEAST * (-low).max(high)

@@ -5,19 +5,20 @@ use crate::table::layout;
 /// Role of a measure in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Measure on the vertical axis over a parameter, in pictures of a response or a hysteresis loop.
+    /// Measure on the vertical axis in pictures of a response or a hysteresis loop. The horizontal axis of
+    /// these pictures is a parameter.
     Response,
     /// Benefit of a design, for example lift. Pictures show the benefit as the colour of a map, the y-axis of a scatter
     /// plot, or the measure of a histogram or tornado chart.
     Benefit,
-    /// Cost of a design, for example power: the x-axis of a scatter plot.
+    /// Cost of a design, for example power. Scatter plots show the cost on the x-axis.
     Cost,
-    /// Size of the motion, for example the stroke: the colour of a scatter plot.
+    /// Size of the motion, for example the stroke. Scatter plots show the size of the motion as a colour.
     Motion,
 }
 
 impl Role {
-    /// Returns the role called `name`: `response`, `benefit`, `cost` or `motion`.
+    /// Returns the role called `name`, which is `response`, `benefit`, `cost` or `motion`.
     pub fn of(name: &str) -> Option<Role> {
         match name {
             "response" => Some(Role::Response),
@@ -28,7 +29,7 @@ impl Role {
         }
     }
 
-    /// Returns the measures for a role, beginning with the preferred measure.
+    /// Returns the names of the usual measures for this role, beginning with the preferred measure.
     fn names(self) -> &'static [&'static str] {
         match self {
             Role::Response => {
@@ -41,9 +42,10 @@ impl Role {
     }
 }
 
-/// Returns the index in `columns` of the measure for a role: the first usual measure, otherwise the first measure.
+/// Chooses the measure for a role, and returns its index in `columns`. If `columns` contains no usual measure
+/// of the role, the function chooses the first allowed column.
 ///
-/// Columns about the run, such as `cycles`, and columns in `taken` are not considered.
+/// Columns about the run, such as `cycles`, and the columns in `taken` are not allowed.
 pub fn usual<'n>(role: Role, columns: &[&'n str], taken: &[&'n str]) -> Option<usize> {
     let is_free = |column: &&str| !taken.contains(column) && !layout::is_fixed(column);
     let places = |wanted: &str| columns.iter().position(|column| *column == wanted && is_free(column));

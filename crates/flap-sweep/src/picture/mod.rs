@@ -1,5 +1,5 @@
-//! Properties of pictures that are the same in the command line and in Python: measures, colours, branches, scales of
-//! axes, and statistics of a sample.
+//! Choices for pictures that the command line and Python share: measures, colours, branches, scales of axes,
+//! and statistics of a sample.
 
 pub mod branches;
 pub mod colours;

@@ -1,10 +1,10 @@
-//! Statistics of a sample: percentiles, bars of a histogram, rank correlations.
+//! Computes statistics of a sample: percentiles, bars of a histogram, and rank correlations.
 
-/// Percentiles that a histogram marks (percent).
+/// Percentiles that pictures of a histogram mark, in percent.
 pub const MARKED: [u32; 3] = [5, 50, 95];
 
-/// Returns the value below which the fraction `share` (0 to 1) of the ascending `values` lies, by linear interpolation;
-/// NaN if there are no values.
+/// Returns a percentile of the ascending `values`, by linear interpolation. `share` is the fraction of the
+/// values below the percentile, from 0 to 1. Returns NaN if there are no values.
 pub fn percentile(values: &[f64], share: f64) -> f64 {
     let Some(last) = values.len().checked_sub(1) else { return f64::NAN };
     let place = share * last as f64;
@@ -20,21 +20,21 @@ pub fn percentile(values: &[f64], share: f64) -> f64 {
     if difference.is_finite() { low + part * difference } else { low * (1.0 - part) + high * part }
 }
 
-/// Bars of a histogram, and percentiles of the values of the histogram.
+/// A histogram of a sample, with percentiles of the sample.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Histogram {
-    /// Ends of the bars, ascending and equidistant, from the smallest to the largest value.
+    /// Edges of the bars, from the smallest to the largest value. All bars have the same width.
     pub edges: Vec<f64>,
     /// Number of values in each bar.
     pub counts: Vec<usize>,
-    /// Values at the percentiles [`MARKED`].
+    /// Percentiles of the values, for the percentages in [`MARKED`].
     pub marked: [f64; 3],
 }
 
 /// Returns the histogram of the finite `values`; `None` if no value is finite.
 ///
-/// The width of bars follows the rule of Freedman and Diaconis: twice the interquartile range over the cube root of the
-/// number of values. The histogram has at least 5 and at most 60 bars.
+/// The width of the bars is twice the interquartile range, divided by the cube root of the number of values
+/// (rule of Freedman and Diaconis). The histogram has at least 5 and at most 60 bars.
 pub fn histogram(values: &[f64]) -> Option<Histogram> {
     const FEWEST: f64 = 5.0;
     const MOST: f64 = 60.0;
@@ -72,8 +72,8 @@ pub fn histogram(values: &[f64]) -> Option<Histogram> {
 
 /// Returns Spearman's rank correlation of two columns, from -1 to 1, over rows in which both values are finite.
 ///
-/// Equal values share the mean of their ranks. NaN if fewer than three rows have two finite values, or if a column is
-/// constant in these rows.
+/// All equal values get the mean of their ranks. Returns NaN if fewer than three rows have two finite values,
+/// or if a column is constant in these rows.
 pub fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
     let (x, y): (Vec<f64>, Vec<f64>) =
         x.iter().zip(y).filter(|(x, y)| x.is_finite() && y.is_finite()).map(|(x, y)| (*x, *y)).unzip();
@@ -88,7 +88,7 @@ pub fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
     if size == 0.0 { f64::NAN } else { (product(&x, &y) / size).clamp(-1.0, 1.0) }
 }
 
-/// Returns the rank of each value, from 0. Equal values share the mean of their ranks.
+/// Returns the rank of each value, counted from 0. All equal values get the mean of their ranks.
 fn ranks(values: &[f64]) -> Vec<f64> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
@@ -104,11 +104,11 @@ fn ranks(values: &[f64]) -> Vec<f64> {
     ranks
 }
 
-/// Returns the rank correlation of each parameter with a measure, in descending order of magnitude, with the
-/// parameter's index.
+/// Returns the rank correlation of each parameter with a measure, together with the index of the parameter.
+/// The correlation with the largest magnitude is the first.
 ///
-/// The result leaves out parameters without a correlation. The result also leaves out parameters whose values have the
-/// same or the reverse order as the values of an earlier parameter.
+/// The result leaves out parameters whose correlation is not defined. The result also leaves out a parameter
+/// if the order of its values equals the order of an earlier parameter's values, or the reverse order.
 pub fn correlations(parameters: &[&[f64]], measure: &[f64]) -> Vec<(usize, f64)> {
     const SAME: f64 = 1.0 - 1e-9;
     let mut found: Vec<(usize, f64)> = Vec::new();

@@ -1,8 +1,9 @@
-//! The choice between linear and logarithmic scales.
+//! Chooses between linear and logarithmic scales.
 
-/// Returns true if an axis or a colour bar with these rising values is logarithmic.
+/// Returns true if an axis or a colour bar with the ascending `values` should be logarithmic.
 ///
-/// The values then have a constant ratio, and span a decade or more.
+/// A logarithmic scale requires at least three positive values with a constant ratio, over a factor of ten or
+/// more.
 pub fn is_log(values: &[f64]) -> bool {
     let (Some(first), Some(last)) = (values.first(), values.last()) else { return false };
     if values.len() < 3 || *first <= 0.0 || last / first < 9.99 {

@@ -1,4 +1,5 @@
-//! Operations that differ between operating systems. Each operating system has its own file with the same functions.
+//! Functions whose code differs between operating systems. One file for each kind of operating system
+//! contains the same functions.
 
 #[cfg(unix)]
 mod unix;

@@ -1,4 +1,4 @@
-//! Operations of Linux, macOS and other Unix systems.
+//! Functions for Linux, macOS and other Unix systems.
 
 use std::fs::Metadata;
 use std::os::unix::fs::FileTypeExt as _;
@@ -10,7 +10,8 @@ pub(crate) fn is_stream(metadata: &Metadata) -> bool {
     metadata.file_type().is_fifo() || metadata.file_type().is_char_device()
 }
 
-/// Returns true if `path` is a pipe that the shell opened for the command: `<(command)` or `/dev/stdin`.
+/// Returns true if `path` is a pipe that the shell opened for the command, such as `<(command)` or
+/// `/dev/stdin`.
 pub(crate) fn is_pipe_of_shell(path: &Path, metadata: &Metadata) -> bool {
     metadata.file_type().is_fifo() && (path.starts_with("/dev") || path.starts_with("/proc"))
 }

@@ -1,4 +1,4 @@
-//! Windows.
+//! Functions for Windows.
 
 use std::fs::Metadata;
 use std::path::Path;

@@ -10,24 +10,25 @@ pub enum Format {
     Csv,
     /// Comma-separated values, compressed with Zstandard: `.csv.zst`.
     CsvZstd,
-    /// Columns with types, units and provenance: `.parquet`.
+    /// Parquet: columns with types and units, and the origin of the rows: `.parquet`.
     Parquet,
 }
 
-/// Endings of names, and their formats.
+/// Endings of file names, each with its format.
 const NAMED: [(&str, Format); 3] =
     [(".csv", Format::Csv), (".csv.zst", Format::CsvZstd), (".parquet", Format::Parquet)];
 
 impl Format {
-    /// Endings, for help and messages.
+    /// Endings of all formats, as text for help and messages.
     pub const ENDINGS: &str =
         if cfg!(feature = "parquet") { ".csv, .csv.zst or .parquet" } else { ".csv or .csv.zst" };
 
-    /// Returns the format for the ending of a file's name, in upper or lower case. Rows that are written to a device or
-    /// a pipe are always CSV.
+    /// Returns the format that the ending of a file name determines. The ending may be in upper or lower
+    /// case. For a device or a pipe without such an ending, the format is CSV.
     ///
     /// # Errors
-    /// Returns an error if the ending belongs to no format, or to a format that is not part of this build.
+    /// Returns an error if the file name has no known ending, or if this build of flap does not support the
+    /// format.
     pub fn of(path: &Path) -> Result<Format, FormatError> {
         match Format::named(path) {
             Some(Format::Parquet) if !cfg!(feature = "parquet") => {
@@ -39,8 +40,8 @@ impl Format {
         }
     }
 
-    /// Returns true if the format stores rows as columns, as Parquet does. Until all rows are present, another file
-    /// contains the rows as compressed text.
+    /// Returns true if the format stores a table column by column, as Parquet does. Until all rows are
+    /// computed, flap stores the rows of such a table as compressed text in a separate file.
     pub fn is_columnar(self) -> bool {
         self == Format::Parquet
     }
@@ -48,20 +49,21 @@ impl Format {
     /// Checks the name of a table that can only be written as CSV.
     ///
     /// # Errors
-    /// An error if the ending of the file's name is not `.csv`.
+    /// Returns an error if the file name does not end in `.csv`.
     pub fn require_csv(path: &Path) -> Result<(), FormatError> {
         let is_csv = Format::named(path) == Some(Format::Csv) || is_no_regular_file(path);
         if is_csv { Ok(()) } else { Err(unknown(path, ".csv")) }
     }
 
-    /// Returns the name of a file without the ending of the format, and the ending.
+    /// Splits the name of a file into the part before the ending of the format and the ending, such as `rows`
+    /// and `.csv`.
     pub fn split_ending(name: &str) -> (&str, &str) {
         let found = NAMED.iter().find(|(ending, _)| name.to_ascii_lowercase().ends_with(ending));
         // The endings are ASCII, so they have as many bytes in the name.
         name.split_at(name.len() - found.map_or(0, |(ending, _)| ending.len()))
     }
 
-    /// Returns a path with a word before the ending of the format: `rows.new.csv` for `rows.csv`.
+    /// Inserts a word before the ending of the format: for example, `rows.csv` becomes `rows.new.csv`.
     pub fn with_word(path: &Path, word: &str) -> PathBuf {
         let name = path.file_name().unwrap_or_default().to_string_lossy();
         let (stem, ending) = Format::split_ending(&name);
@@ -74,7 +76,7 @@ impl Format {
     }
 }
 
-/// Error of a file name whose ending belongs to no format. The error contains the message.
+/// Error if a file name has no supported ending, such as `.csv`. The error contains the message.
 #[derive(Debug, thiserror::Error)]
 #[error("{0}")]
 pub struct FormatError(String);
@@ -83,7 +85,7 @@ fn unknown(path: &Path, allowed: &str) -> FormatError {
     FormatError(format!("{}: the file name must end in {allowed}", path.display()))
 }
 
-/// Returns true if `path` is something other than a file, such as a device or a pipe.
+/// Returns true if `path` exists but is not a regular file, for example a device or a pipe.
 fn is_no_regular_file(path: &Path) -> bool {
     fs::metadata(path).is_ok_and(|metadata| !metadata.is_file())
 }

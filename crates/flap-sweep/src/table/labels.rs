@@ -1,4 +1,5 @@
-//! Labels of columns: names in words, units, and the preferred direction of a measure.
+//! Creates the labels of columns: the name in words, the unit, and the direction in which a measure is
+//! better.
 
 use std::borrow::Cow;
 use std::f64::consts::PI;
@@ -15,11 +16,12 @@ pub struct Label {
     pub words: String,
     /// Unit for display, such as `N·m/rad` or `°`; empty for a column without a unit.
     pub unit: String,
-    /// Preferred direction of a measure; `None` for columns that are neither a benefit nor a cost.
+    /// Direction in which the measure is better: larger or smaller. `None` for a column that is neither a
+    /// benefit nor a cost.
     pub better: Option<Direction>,
 }
 
-/// Preferred direction of a measure.
+/// Direction in which a measure is better: towards larger or towards smaller values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Larger values of the measure are better: a benefit, such as lift.
@@ -35,8 +37,8 @@ impl Label {
     }
 }
 
-/// Returns the label of a column whose values have `unit`, written as in tables of parameters (`N*m/rad`). An empty
-/// `unit` belongs to a column without a unit.
+/// Returns the label of a column whose values are in `unit`. The unit has the form `N*m/rad`, and is empty
+/// for a column without a unit.
 ///
 /// ```
 /// use flap_sweep::table::labels::{self, Direction};
@@ -49,10 +51,11 @@ pub fn with_unit(column: &str, unit: &str) -> Label {
     Label { words: words(column, unit), unit: printed(unit), better: better(column) }
 }
 
-/// Returns the unit of a column; empty for a column without a unit.
+/// Returns the unit of a column, or an empty text for a column without a unit.
 ///
-/// If one of the `models` has a parameter, a measure or a derivative of this name, the result is its unit. For other
-/// names, the ending of the name determines the unit.
+/// If one of the `models` has a parameter, a measure or a derivative with this name, the function returns the
+/// unit that the model states. Otherwise the ending of the name determines the unit: for example, `_mn` means
+/// mN.
 pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> Cow<'static, str> {
     let of_model = |name| unit_in_models(name, models);
     let derivative = derivative::parts(column).and_then(|(of, by, per)| {
@@ -62,7 +65,8 @@ pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> Cow<'static, 
     derivative.map_or_else(|| of_model(column).unwrap_or_else(|| split_unit(column).1).into(), Cow::from)
 }
 
-/// Endings of names, each with its unit in words. If two entries match a name, the longer entry is first in the list.
+/// Endings of column names, each with the unit that the ending means. If two endings match a name, the longer
+/// ending comes first in the list.
 const ENDINGS: [(&str, &str); 30] = [
     ("_gf_per_w", "gf/W"),
     ("_deg_per_v", "deg/V"),
@@ -96,7 +100,8 @@ const ENDINGS: [(&str, &str); 30] = [
     ("_m", "m"),
 ];
 
-/// Returns the name of a column without the unit, and the unit. The unit is empty if the name has no unit.
+/// Splits the name of a column into the part before the unit and the unit. The unit is empty if the name does
+/// not end in a unit.
 ///
 /// ```
 /// assert_eq!(flap_sweep::table::labels::split_unit("lift_mean_mn"), ("lift_mean", "mN"));
@@ -107,7 +112,7 @@ pub fn split_unit(name: &str) -> (&str, &'static str) {
     split.unwrap_or((name, ""))
 }
 
-/// Returns the unit of the parameter or measure with this name in one of the models.
+/// Searches all models for a parameter or a measure called `name`, and returns its unit.
 fn unit_in_models(name: &str, models: &[&'static dyn Simulator]) -> Option<&'static str> {
     models.iter().find_map(|model| {
         let parameter = model.parameters().iter().find(|parameter| parameter.name == name);
@@ -116,14 +121,14 @@ fn unit_in_models(name: &str, models: &[&'static dyn Simulator]) -> Option<&'sta
     })
 }
 
-/// Returns the text of a label, which begins with the words. If there is a unit, the printed unit follows in
-/// parentheses.
+/// Returns the text of a label: the words, then the unit in parentheses. Without a unit, the text is only the
+/// words.
 pub fn titled(words: &str, unit: &str) -> String {
     if unit.is_empty() { words.to_owned() } else { format!("{words} ({unit})") }
 }
 
-/// First words of names of measures that are benefits or costs. If two entries match a name, the longer entry is first
-/// in the list.
+/// Words with which the names of benefits and costs begin, each with the direction in which the measure is
+/// better. If two entries match a name, the longer entry comes first in the list.
 const BETTER: [(&str, Direction); 10] = [
     ("lift", Direction::Larger),
     ("force_up", Direction::Larger),
@@ -137,8 +142,8 @@ const BETTER: [(&str, Direction); 10] = [
     ("hover_growth", Direction::Smaller),
 ];
 
-/// Returns the preferred direction of a column, from the first words of its name; `None` if the column is neither a
-/// benefit nor a cost.
+/// Returns the direction in which a measure is better, which the first words of the column name determine.
+/// Returns `None` if the column is neither a benefit nor a cost.
 pub fn better(column: &str) -> Option<Direction> {
     // The other forces and torques of a vehicle have target values: neither large nor small values are preferred.
     if column != "force_up_mn" && FORCES.contains(&column) {
@@ -149,7 +154,8 @@ pub fn better(column: &str) -> Option<Direction> {
     BETTER.iter().find(|(words, _)| begins(words)).map(|(_, direction)| *direction)
 }
 
-/// Words of names that follow a comma in a label.
+/// Words in column names that stand after a comma in labels: for example, the label of `lift_max_mn` is
+/// `Lift, largest (mN)`.
 const QUALIFIERS: [(&str, &str); 14] = [
     ("mean", "mean"),
     ("max", "largest"),
@@ -167,7 +173,8 @@ const QUALIFIERS: [(&str, &str); 14] = [
     ("margin", "margin"),
 ];
 
-/// Nouns that precede their adjectives in names of measures: `power_drag_mean_mw` is a drag power.
+/// Nouns that stand before their adjectives in names of measures. For example, the label of
+/// `power_drag_mean_mw` begins with `Drag power`.
 const NOUNS: [&str; 9] =
     ["lift", "drag", "power", "current", "force", "torque", "efficiency", "strain", "field"];
 
@@ -212,7 +219,8 @@ fn capitalized(text: &str) -> String {
     letters.next().into_iter().flat_map(char::to_uppercase).chain(letters).collect()
 }
 
-/// Returns a unit for display: `uN*m/rad` is `µN·m/rad`, `mm^2` is `mm²`, `deg` is `°`.
+/// Returns a unit for display: for example, `uN*m/rad` becomes `µN·m/rad`, `mm^2` becomes `mm²`, and `deg`
+/// becomes `°`.
 pub fn printed(unit: &str) -> String {
     let mut text = String::new();
     let mut rest = unit;
@@ -248,10 +256,10 @@ fn superscript(digit: char) -> char {
     digit.to_digit(10).map_or('⁻', |digit| DIGITS[digit as usize])
 }
 
-/// A readable unit for values, and the factor from the original unit.
+/// A unit with a suitable prefix, and the factor that converts values from the original unit into this unit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scale {
-    /// Factor for values.
+    /// Factor by which values in the original unit are multiplied.
     pub factor: f64,
     /// Unit of the scaled values, for display.
     pub unit: String,
@@ -261,12 +269,13 @@ pub struct Scale {
 const PREFIXES: [(&str, i32); 8] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("µ", -6), ("n", -9), ("p", -12)];
 
-/// Units that take a prefix. Units of measures, such as mN, already have a prefix.
+/// Units to which a prefix can be added. Units of measures, such as mN, already have a prefix.
 const SYMBOLS: [&str; 13] = ["m", "s", "N", "Pa", "V", "F", "kg", "Hz", "W", "A", "J", "Ohm", "C"];
 
-/// Returns the scale for values in `unit`, whose prefix brings the largest magnitude `largest` to between 1 and 1000.
+/// Returns a scale for values in `unit`. With the prefix of the scale, the largest magnitude of the values,
+/// `largest`, is between 1 and 1000.
 ///
-/// Values from 0.1 to 10 000 keep their unit; radians become degrees.
+/// If `largest` is from 0.1 to 10 000, the unit does not change. Radians always become degrees.
 pub fn scale(unit: &str, largest: f64) -> Scale {
     let scale = |factor: f64, unit: &str| Scale { factor, unit: unit.to_owned() };
     match unit {

@@ -1,4 +1,5 @@
-//! Columns of a result file: order, description and cells. This module also contains the columns that all models have.
+//! Defines the columns of a result file: their order, their descriptions and their cells. This module also
+//! contains the columns that all models have.
 
 use std::borrow::Cow;
 use std::sync::LazyLock;
@@ -11,25 +12,25 @@ use crate::derivative::{self, column_name, meaning, reasons_of};
 use crate::notation::{expression, text};
 use crate::plan::Plan;
 
-/// Columns of the rows of a plan.
+/// Columns of the result file of a plan.
 ///
-/// The columns are `point`, the varied parameters, the derived parameters, `status`, the measures, and then `cycles`,
-/// `residual`, `period`, `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. A plan may select columns after
-/// `status`.
+/// The columns are `point`, the varied parameters, the derived parameters, `status`, the measures, and then
+/// `cycles`, `residual`, `period`, `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. A plan may select
+/// only some of the columns after `status`.
 ///
-/// Rows of curves begin with `curve` in place of `point`. Rows of curves have `branch` and the followed parameter
-/// before `status`, and `bistable` after `status`.
+/// Rows of response curves begin with the column `curve` instead of `point`. Rows of response curves have the
+/// columns `branch` and the followed parameter before `status`, and the column `bistable` after `status`.
 #[derive(Debug)]
 pub struct Layout<'p> {
     /// Varied parameters, then derived parameters, each with its index in the model's parameter table.
     pub varied: Vec<(usize, &'p Parameter<'p>)>,
-    /// Followed parameter, if the plan follows a parameter.
+    /// Parameter along which the plan computes response curves; `None` if the plan has no response curves.
     pub followed: Option<&'p Parameter<'p>>,
     /// Columns, from left to right.
     entries: Vec<Entry<'p>>,
 }
 
-/// Position of a motion on a curve.
+/// Position of a motion on a response curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Place {
     /// Branch.
@@ -38,26 +39,28 @@ pub struct Place {
     pub value: f64,
     /// True if the motions of the branches up and down differ at this value of the followed parameter.
     ///
-    /// `None` if neither motion is periodic with the drive, and for unstable orbits.
+    /// The value is `None` for unstable orbits, and if neither of the two motions is periodic with the drive.
     pub bistable: Option<bool>,
 }
 
 /// A measured column of a result file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Measure {
-    /// Index in the measures of a row: first the columns of the model, then the measures of the plan.
+    /// Index of the measure in the list of a row's measures. The list contains the measures of the model,
+    /// then the measures of the plan, then the derivatives.
     pub index: usize,
-    /// Column. In a row's measures, 1 is true and 0 is false.
+    /// Description of the column. In the list of a row's measures, 1 means true and 0 means false.
     pub column: Column,
 }
 
 impl Measure {
-    /// Returns the value of this measure in the measures of a row; NaN if the row has no measures.
+    /// Returns the value of this measure. `measures` is the list of a row's measures. Returns NaN if the row
+    /// has no measures.
     pub fn value(&self, measures: &[f64]) -> f64 {
         measures.get(self.index).copied().unwrap_or(f64::NAN)
     }
 
-    /// Returns the cell of this measure for the measures of a row.
+    /// Returns the cell of this measure. `measures` is the list of a row's measures.
     pub(crate) fn cell(&self, measures: &[f64]) -> Cell<'static> {
         let value = self.value(measures);
         match self.column.kind {
@@ -69,7 +72,7 @@ impl Measure {
 }
 
 impl<'p> Layout<'p> {
-    /// Returns the columns of `plan`.
+    /// Returns the columns of the result file of `plan`.
     pub fn of(plan: &'p Plan) -> Layout<'p> {
         let parameters = plan.parameters();
         let varied: Vec<_> = plan.differing().map(|index| (index, &parameters[index])).collect();
@@ -129,20 +132,22 @@ impl<'p> Layout<'p> {
 
     /// Returns one cell per column. Unknown values are empty cells.
     ///
-    /// Unknown values are the measures of a point that is not periodic, and the residual of a point that completed no
-    /// period.
-    /// If no orbit was found, the Floquet multiplier and the stability are unknown too.
+    /// The measures are unknown if the motion of the point is not periodic. The residual is unknown if no
+    /// period of the motion was completed. If no orbit was found, the Floquet multiplier and the stability
+    /// are unknown too.
     pub fn cells(&self, point: &Point, row: &Row) -> Vec<Cell<'p>> {
         self.cells_at(point, None, row)
     }
 
-    /// Returns the cells of a motion on a curve of the design `point`, in the form of [`Layout::cells`].
+    /// Returns the cells of a motion on a response curve of the design `point`. `place` is the position of
+    /// the motion on the curve. Unknown values are empty cells, as in [`Layout::cells`].
     pub fn cells_at(&self, point: &Point, place: Option<Place>, row: &Row) -> Vec<Cell<'p>> {
         self.entries.iter().map(|entry| entry.cell(point, place, row)).collect()
     }
 }
 
-/// Returns the columns of derivatives, which follow `before` measures in a row.
+/// Returns the columns of derivatives. In the list of a row's measures, the derivatives come after `before`
+/// other measures.
 fn derivatives(plan: &Plan, before: usize) -> Vec<Entry<'_>> {
     let Some(gradient) = plan.gradient() else { return Vec::new() };
     let models = plan.rows().columns();
@@ -160,14 +165,14 @@ fn derivatives(plan: &Plan, before: usize) -> Vec<Entry<'_>> {
     columns.map(|(place, column)| Entry::Measure(Measure { index: before + place, column })).collect()
 }
 
-/// Returns the column with the reasons for missing derivatives of a row.
+/// Returns the column `gradient_gap`, which contains the reasons why derivatives of a row are missing.
 fn gradient_gap() -> Column {
     let doc =
         "reasons for missing derivatives of the row, such as edge;zero; empty if no derivative is missing";
     Column::new("gradient_gap", "", CellKind::Text, doc)
 }
 
-/// Returns the column with the branch of a curve.
+/// Returns the column `branch`, which contains the branch of a response curve.
 fn branch() -> Column {
     Column::new(
         "branch",
@@ -177,13 +182,13 @@ fn branch() -> Column {
     )
 }
 
-/// Returns the column that is true where a curve is bistable.
+/// Returns the column `bistable`, which is true where a response curve has two different stable motions.
 fn bistable() -> Column {
     let doc = "true if the motions of the branches up and down differ at the same value of the parameter; empty if neither motion is periodic";
     Column::new(BISTABLE, "", CellKind::Flag, doc)
 }
 
-/// Returns the words for the reasons with this code, see [`reasons_of`]: `edge;zero`.
+/// Converts the code of reasons for missing derivatives into words, such as `edge;zero`: see [`reasons_of`].
 fn gap(code: f64) -> &'static str {
     static TEXTS: LazyLock<Vec<String>> = LazyLock::new(|| {
         let words = |code| reasons_of(f64::from(code)).map(NoSlope::name).collect::<Vec<_>>().join(";");
@@ -198,7 +203,7 @@ pub fn fixed_columns() -> Vec<Column> {
     fixed.map(|fixed| Column::new(fixed.name, "", fixed.kind, fixed.doc)).collect()
 }
 
-/// Returns the columns that rows of every model may have. The columns are `branch` and `bistable` for curves, and
+/// Returns the columns that the rows of some plans have: `branch` and `bistable` for response curves, and
 /// `gradient_gap` for derivatives.
 pub fn special_columns() -> [Column; 3] {
     [branch(), bistable(), gradient_gap()]
@@ -208,13 +213,13 @@ pub fn special_columns() -> [Column; 3] {
 #[derive(Clone, Debug)]
 enum Entry<'p> {
     Fixed(&'static Fixed),
-    /// A varied or derived parameter, with its index in the model's table.
+    /// A varied or derived parameter, with its index in the model's parameter table.
     Parameter(usize, &'p Parameter<'p>),
-    /// Branch of a curve.
+    /// Branch of a response curve.
     Branch,
-    /// Followed parameter of a curve.
+    /// Parameter along which response curves are computed.
     Followed(&'p Parameter<'p>),
-    /// Flag that is true where a curve is bistable.
+    /// Column that is true where a response curve has two different stable motions.
     Bistable,
     Measure(Measure),
     /// A component of the state at the beginning of the motion's period, with the index of the component.
@@ -249,7 +254,7 @@ impl<'p> Entry<'p> {
     }
 }
 
-/// Description of a column of a result file, for tables with types and units.
+/// Description of a column of a result file: its name, its unit, its type and its meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
     /// Name of the column. The name of a measure includes the unit.
@@ -289,7 +294,7 @@ impl Column {
     }
 }
 
-/// Cell of a row in a column.
+/// One cell of a result file.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Cell<'t> {
     /// A whole number.
@@ -307,7 +312,8 @@ impl<'t> Cell<'t> {
         text::option(parameter, value).map_or(Cell::Number(value), Cell::Text)
     }
 
-    /// Returns the cell of a column of this `kind` from its text in a result file; `None` if the text does not match.
+    /// Converts the text of a cell in a result file into a cell of the type `kind`. Returns `None` if the
+    /// text does not match the type.
     pub fn parse(kind: CellKind, text: &'t str) -> Option<Cell<'t>> {
         let is_unknown = text.is_empty();
         Some(match kind {
@@ -337,7 +343,7 @@ pub(crate) const POINT: Fixed = Fixed {
     cell: |point, _| Cell::Whole(point.index),
 };
 
-/// First column of curves, in place of `point`.
+/// First column of the rows of response curves, instead of the column `point`.
 pub(crate) const CURVE: Fixed = Fixed {
     name: "curve",
     kind: CellKind::Whole,
@@ -353,15 +359,17 @@ pub(crate) const STATUS: Fixed = Fixed {
     cell: |_, row| Cell::Text(row.status.name()),
 };
 
-/// Name of the column of curves that is true where the branches up and down have different motions.
+/// Name of the column that is true where the branches `up` and `down` of a response curve have different
+/// motions.
 pub(crate) const BISTABLE: &str = "bistable";
 
-/// Returns true if `name` is not allowed for measures, because rows may have another column with this name.
+/// Returns true if a measure must not have the name `name`, because rows may have a column of flap with this
+/// name.
 pub(crate) fn is_fixed(name: &str) -> bool {
     name == BISTABLE || [&POINT, &STATUS].into_iter().chain(&RUN).any(|column| column.name == name)
 }
 
-/// Columns about the run, after the measures.
+/// Columns about the computation of a row, such as `cycles`. These columns come after the measures.
 pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "cycles",

@@ -1,4 +1,4 @@
-//! Tables of rows: columns, rows as text, and formats of files.
+//! Describes tables of rows: columns, labels of columns, rows as text, and formats of files.
 
 pub mod format;
 pub mod labels;

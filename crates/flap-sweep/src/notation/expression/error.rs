@@ -5,16 +5,16 @@ use std::ops::Range;
 
 use super::scope::Kind;
 
-/// A mistake in an expression, with its place in the text.
+/// A mistake in an expression, with its position in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExpressionError {
-    /// Position of the bytes with the mistake in the text. The range is empty if the mistake is missing text.
+    /// Byte range of the mistake in the text. The range is empty if text is missing at this position.
     pub span: Range<usize>,
-    /// Kind of the mistake, for callers with more specific advice.
+    /// Kind of the mistake. Callers use the kind to give more specific advice.
     pub mistake: Mistake,
     /// Message.
     pub message: String,
-    /// Allowed forms or advice, if there are allowed forms or advice for this mistake.
+    /// Advice for the user, such as the allowed forms; `None` if there is no advice.
     pub help: Option<String>,
 }
 
@@ -23,23 +23,24 @@ pub struct ExpressionError {
 pub enum Mistake {
     /// An unknown name.
     UnknownName(String),
-    /// A choice is compared with an element that is not a text in quotes.
+    /// A choice is compared with something that is not in quotes, as in `arms == axis`.
     NotInQuotes,
-    /// Another element in place of an operator, or text that begins like a number but is not a number, such as `2x`.
+    /// An operator is missing, as in `2 x`, or a text begins like a number but is not a number, as in `2x`.
     NoOperator,
-    /// A condition in place of a number, or a number in place of a condition.
+    /// A condition is used as a number, or a number is used as a condition.
     Mismatch,
-    /// A mistake of another kind.
+    /// A mistake without a kind of its own, for example an operator that is not allowed.
     Other,
 }
 
 impl ExpressionError {
-    /// Returns a mistake of the kind [`Mistake::Other`] without help.
+    /// Returns an error of the kind [`Mistake::Other`] without advice.
     pub(super) fn new(span: Range<usize>, message: impl Into<String>) -> ExpressionError {
         ExpressionError { span, mistake: Mistake::Other, message: message.into(), help: None }
     }
 
-    /// Returns the mistake of an expression that is not of the kind `wanted`.
+    /// Returns the error for a number where a condition is expected, or for a condition where a number is
+    /// expected. `wanted` is the expected type.
     pub fn mismatch(span: Range<usize>, wanted: Kind) -> ExpressionError {
         let (message, help) = match wanted {
             Kind::Number => ("this is a condition, not a number", None),
@@ -51,12 +52,12 @@ impl ExpressionError {
         ExpressionError { mistake: Mistake::Mismatch, help, ..ExpressionError::new(span, message) }
     }
 
-    /// Returns the mistake with the help text `help`.
+    /// Returns this error with the advice `help`.
     pub(super) fn helps(self, help: impl Into<String>) -> ExpressionError {
         ExpressionError { help: Some(help.into()), ..self }
     }
 
-    /// Returns an error of this kind with the given mistake.
+    /// Returns this error with the kind `mistake`.
     pub(super) fn of(self, mistake: Mistake) -> ExpressionError {
         ExpressionError { mistake, ..self }
     }

@@ -1,10 +1,10 @@
-//! Operations and functions of expressions, and the evaluation of a checked expression.
+//! Defines the operations and functions of expressions, and computes the value of a checked expression.
 
 use std::sync::Arc;
 
 use super::scope::Kind;
 
-/// Returns the number that `operations` leave on the stack.
+/// Executes `operations` on a stack of numbers, and returns the last number on the stack.
 pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
     let mut stack: Vec<f64> = Vec::with_capacity(operations.len());
     // The parser balances the stack, so this NaN does not occur.
@@ -28,8 +28,8 @@ pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
     pop(&mut stack)
 }
 
-/// Returns the operations of the two operands of a binary operator, if `operations` end with these operands; `None`
-/// otherwise.
+/// Splits `operations` into the operations of the left operand and of the right operand of a binary operator.
+/// Returns `None` if `operations` has no two operands.
 pub(super) fn operands(operations: &[Operation]) -> Option<(&[Operation], &[Operation])> {
     // Operands that are still to be found on the way back to the beginning of the right one.
     let mut missing = 1;
@@ -51,7 +51,8 @@ fn read(values: &[f64], place: usize) -> f64 {
     values.get(place).copied().unwrap_or(f64::NAN)
 }
 
-/// Returns the number of a choice's option, which is given by its index; NaN if there is no such option.
+/// Returns the number in `numbers` that belongs to the option with the index `option`. Returns NaN if there
+/// is no such option.
 pub(crate) fn of_choice(numbers: &[f64], option: f64) -> f64 {
     let found = numbers.iter().enumerate().find(|(place, _)| *place as f64 == option);
     found.map_or(f64::NAN, |(_, number)| *number)
@@ -61,13 +62,13 @@ fn pop(stack: &mut Vec<f64>) -> f64 {
     stack.pop().unwrap_or(f64::NAN)
 }
 
-/// Removes and returns the two topmost numbers, the lower one first.
+/// Removes the two topmost numbers from the stack, and returns them in the order in which they were pushed.
 fn pop_two(stack: &mut Vec<f64>) -> (f64, f64) {
     let b = pop(stack);
     (pop(stack), b)
 }
 
-/// Returns a to the power of b. Unlike `pow`, NaN to the power of 0 is NaN.
+/// Returns `a` to the power of `b`. NaN to the power of 0 is NaN, whereas `pow` returns 1.
 fn power(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { libm::pow(a, b) }
 }
@@ -76,16 +77,17 @@ fn compared(a: f64, b: f64, holds: bool) -> f64 {
     if a.is_nan() || b.is_nan() { f64::NAN } else { f64::from(u8::from(holds)) }
 }
 
-/// One operation. Conditions are 1 for true, 0 for false and NaN for unknown.
+/// One operation. On the stack, a condition is the number 1 for true, 0 for false, and NaN for unknown.
 #[derive(Clone, Debug)]
 pub(super) enum Operation {
     /// Pushes a constant number onto the stack.
     Push(f64),
-    /// Pushes one of the values onto the stack.
+    /// Pushes the value with this index onto the stack.
     Read(usize),
-    /// Pushes the number that belongs to the chosen option of a choice onto the stack.
+    /// Pushes a number that depends on a choice onto the stack. The variant contains the index of the choice,
+    /// and one number for each option.
     ReadOf(usize, Arc<[f64]>),
-    /// Replaces the two topmost numbers on the stack.
+    /// Replaces the two topmost numbers on the stack by the result of a binary operator.
     Binary(&'static Operator),
     /// Replaces the topmost number on the stack by a function of this number.
     Apply(fn(f64) -> f64),
@@ -120,8 +122,8 @@ pub(super) struct Operator {
     apply: fn(f64, f64) -> f64,
 }
 
-/// Binary operators. If neither side of `and` and `or` decides, the result is NaN if a side is NaN; otherwise both sides
-/// are equal.
+/// Binary operators. If no side of `and` or `or` alone determines the result, the result is the product of
+/// both sides. This product is NaN if a side is NaN. Otherwise both sides are equal, and so is their product.
 static OPERATORS: [Operator; 13] = [
     logical("or", precedence::OR, |a, b| if a == 1.0 || b == 1.0 { 1.0 } else { a * b }),
     logical("and", precedence::AND, |a, b| if a == 0.0 || b == 0.0 { 0.0 } else { a * b }),
@@ -162,7 +164,8 @@ pub(super) enum Function {
     One(fn(f64) -> f64),
     /// Function of two numbers.
     Two(fn(f64, f64) -> f64),
-    /// Function of two or more numbers, which is applied to pairs of numbers.
+    /// Function of two or more numbers, such as `max`. The function is applied to two numbers, then to the
+    /// result and the next number.
     Many(fn(f64, f64) -> f64),
 }
 
@@ -194,7 +197,7 @@ const FUNCTIONS: [(&str, Function); 24] = [
     ("tanh", Function::One(libm::tanh)),
 ];
 
-/// The name and the value of the only constant.
+/// Name and value of `pi`, the only constant in expressions.
 pub(super) const PI: (&str, f64) = ("pi", std::f64::consts::PI);
 
 /// Returns the function called `name`.
@@ -207,7 +210,7 @@ pub(super) fn names() -> impl Iterator<Item = &'static str> {
     FUNCTIONS.iter().map(|(name, _)| *name)
 }
 
-/// Returns the smaller number. Unlike [`f64::min`], the result is NaN if one of the numbers is NaN.
+/// Returns the smaller number, or NaN if one of the numbers is NaN. In contrast, [`f64::min`] ignores NaN.
 fn min(a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN
@@ -218,7 +221,7 @@ fn min(a: f64, b: f64) -> f64 {
     }
 }
 
-/// Returns the larger number. Unlike [`f64::max`], the result is NaN if one of the numbers is NaN.
+/// Returns the larger number, or NaN if one of the numbers is NaN. In contrast, [`f64::max`] ignores NaN.
 fn max(a: f64, b: f64) -> f64 {
     -min(-a, -b)
 }

@@ -1,5 +1,5 @@
-//! Parser of expressions: the text becomes tokens, and tokens become operations in postfix order (Pratt's operator
-//! precedence).
+//! Parses expressions. The parser converts the text into tokens, and the tokens into operations in postfix
+//! order, with Pratt's method for the precedence of operators.
 
 use std::ops::Range;
 
@@ -8,11 +8,12 @@ use super::evaluate::{self, Function, Operation, Operator, precedence};
 use super::scope::{Kind, Meaning, Scope};
 use crate::notation::{nearest, text, units};
 
-/// Largest nesting of parentheses, functions and operators. Deeper nesting is a mistake or an attack, and would
-/// overflow the stack.
+/// Largest allowed depth of nested parentheses, functions and operators. Deeper nesting is a mistake or an
+/// attack, and could overflow the stack of the program.
 const MOST_NESTED: usize = 100;
 
-/// The parts of an expression: its kind, its operations, and the positions of the comparisons of two numbers.
+/// Parts of a parsed expression: its type, its operations, and the byte ranges of its comparisons of two
+/// numbers.
 type Parsed = (Kind, Vec<Operation>, Vec<Range<usize>>);
 
 /// Checks `text`. See [`super::Expression::parse`].
@@ -48,7 +49,8 @@ pub(super) fn parse(text: &str, scope: &dyn Scope) -> Result<Parsed, Vec<Express
 
 /// An operand of an operator.
 struct Operand {
-    /// `None` after a mistake, so that the mistake is not reported twice.
+    /// Type of the operand; `None` if the operand contains a mistake, so that the mistake is not reported
+    /// twice.
     kind: Option<Kind>,
     span: Range<usize>,
 }
@@ -56,14 +58,14 @@ struct Operand {
 struct Parser<'a> {
     tokens: Tokens<'a>,
     next: (Token<'a>, Range<usize>),
-    /// All tokens before the next token.
+    /// All tokens that the parser has consumed.
     consumed: Vec<Token<'a>>,
     scope: &'a dyn Scope,
     operations: Vec<Operation>,
     comparisons: Vec<Range<usize>>,
-    /// Mistakes that do not prevent a check of the rest of the text.
+    /// Mistakes after which the parser can still check the rest of the text.
     errors: Vec<ExpressionError>,
-    /// Mistakes in numbers with units, which are reported after mistakes in names.
+    /// Mistakes in numbers with units. The parser reports these mistakes after the mistakes in names.
     unit_errors: Vec<ExpressionError>,
     nested: usize,
 }
@@ -90,7 +92,7 @@ impl<'a> Parser<'a> {
         matches!(self.next.0, Token::Sign(next) if next == sign)
     }
 
-    /// Consumes `sign`, which must be next.
+    /// Consumes the next token, which must be the sign `sign`.
     fn take(&mut self, sign: &str, expected: &'static str) -> Result<Range<usize>, ExpressionError> {
         if self.is_next(sign) {
             return self.advance().map(|(_, span)| span);
@@ -103,7 +105,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Returns an error at the next token.
+    /// Returns an error whose position is the next token.
     fn error(&self, message: impl Into<String>) -> ExpressionError {
         ExpressionError::new(self.next.1.clone(), message)
     }
@@ -117,20 +119,22 @@ impl<'a> Parser<'a> {
         self.expected("an operator").helps(help).of(Mistake::NoOperator)
     }
 
-    /// Records a mistake in an operand, so that the operand has no kind.
+    /// Records a mistake, and returns an operand without a type, so that no further mistake is reported for
+    /// the operand.
     fn record(&mut self, error: ExpressionError, span: Range<usize>) -> Operand {
         self.errors.push(error);
         Operand { kind: None, span }
     }
 
-    /// Records a mistake if `operand` is not of the kind `wanted`.
+    /// Records a mistake if `operand` does not have the type `wanted`.
     fn check_kind(&mut self, wanted: Kind, operand: &Operand) {
         if operand.kind.is_some_and(|kind| kind != wanted) {
             self.errors.push(ExpressionError::mismatch(operand.span.clone(), wanted));
         }
     }
 
-    /// Parses the rest of the text as far as operators bind at least as tightly as `least`.
+    /// Parses an operand and the operators after it. Parsing stops before an operator whose precedence is
+    /// below `least`.
     fn operand(&mut self, least: u8) -> Result<Operand, ExpressionError> {
         self.nested += 1;
         if self.nested > MOST_NESTED {
@@ -156,7 +160,8 @@ impl<'a> Parser<'a> {
         Ok(left)
     }
 
-    /// Adds an operator between two operands, and returns its result as an operand.
+    /// Adds the operation of a binary operator, and returns the operand that represents the result of the
+    /// operation.
     fn combine(&mut self, operator: &'static Operator, left: &Operand, right: &Operand) -> Operand {
         self.check_kind(operator.takes, left);
         self.check_kind(operator.takes, right);
@@ -198,8 +203,8 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Returns the operand of the number with a unit that was consumed. The number is converted to the unit of the name
-    /// with which the number is compared.
+    /// Converts a number with a unit, such as `95 Hz`, into an operand. In `drive_frequency > 95 Hz`, the
+    /// number is converted to the unit of `drive_frequency`.
     fn quantity(&mut self, quantity: &str, span: Range<usize>) -> Operand {
         let unit = self.compared().and_then(|name| Some((name, self.scope.unit(name)?)));
         let converted = if let Some((name, unit)) = unit {
@@ -220,8 +225,8 @@ impl<'a> Parser<'a> {
         Operand { kind, span }
     }
 
-    /// Returns the name with which the last consumed number is compared. The name is the token before or after the sign
-    /// of the comparison.
+    /// Returns the name with which the last consumed number is compared, such as `x` in `x > 95 Hz` or
+    /// `95 Hz < x`.
     fn compared(&self) -> Option<&'a str> {
         let is_comparison =
             |token: &Token<'_>| infix(token).is_some_and(|operator| operator.binds == precedence::COMPARISON);
@@ -240,7 +245,7 @@ impl<'a> Parser<'a> {
         }
     }
 
-    /// Parses the operand of a unary operator.
+    /// Parses a unary operator and its operand.
     fn unary(
         &mut self,
         function: Option<fn(f64) -> f64>,
@@ -254,7 +259,7 @@ impl<'a> Parser<'a> {
         Ok(Operand { kind: Some(kind), span: sign.start..operand.span.end })
     }
 
-    /// Returns the operand that the latest name represents.
+    /// Returns the operand that the name `name` represents.
     fn named(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
         let constant = || (name == evaluate::PI.0).then_some(Meaning::Constant(evaluate::PI.1));
         let (kind, operation) = match self.scope.meaning(name).or_else(constant) {
@@ -284,7 +289,8 @@ impl<'a> Parser<'a> {
         ExpressionError { span: span.clone(), mistake, message: format!("unknown name `{name}`"), help }
     }
 
-    /// Parses the comparison of a choice with one of its options, which is the only use of a choice.
+    /// Parses the comparison of a choice with one of its options. An expression can use a choice only in such
+    /// a comparison.
     fn choice(
         &mut self,
         name: &str,
@@ -316,7 +322,7 @@ impl<'a> Parser<'a> {
         Ok(Operand { kind: Some(Kind::Condition), span })
     }
 
-    /// Parses the arguments in parentheses of the function `name`.
+    /// Parses the arguments of the function `name`, which stand in parentheses.
     fn call(&mut self, name: &str, span: Range<usize>) -> Result<Operand, ExpressionError> {
         let Some(function) = evaluate::find(name) else {
             let help = if name == "log" {
@@ -363,15 +369,16 @@ fn did_you_mean(name: &str) -> String {
     format!("did you mean `{name}`?")
 }
 
-/// Returns the known name most similar to `name`, for the help of a message; without a similar name, returns all known
-/// names.
+/// Returns advice for a message about the unknown name `name`. The advice is the most similar known name, or
+/// a list of all known names if no name is similar.
 fn nearest_or_all(name: &str, known: &[&str], what: &str) -> String {
     let all = || format!("{what}: {}", known.join(", "));
     nearest(name, known.iter().copied()).map_or_else(all, did_you_mean)
 }
 
-/// Returns the mistake of a parameter that is not set and is computed from the parameters `follows`. `designs` names the designs
-/// without a value; it is empty if no design has a value.
+/// Returns the error for the parameter `name`, which has no number. `follows` describes the parameters from
+/// which its value is computed. `designs` lists the designs without a number, and is empty if all designs
+/// lack the number.
 fn unset(name: &str, follows: &str, designs: &str, span: &Range<usize>) -> ExpressionError {
     let why = text::no_default(follows).unwrap_or_else(|| format!("it follows other parameters ({follows})"));
     let help = if name.contains('.') {
@@ -397,19 +404,21 @@ pub(super) enum Token<'t> {
     Number(f64),
     /// A number with a unit.
     Quantity(&'t str),
-    /// A name, which may contain dots: `preset.wing_area`. In tokens, the words `and`, `or` and `not` are names.
+    /// A name, which may contain dots, as in `preset.wing_area`. The words `and`, `or` and `not` are also
+    /// tokens of this variant.
     Name(&'t str),
-    /// Text in quotes, without the quotes.
+    /// A text that is written in quotes. The token contains the text without the quotes.
     Text(&'t str),
     /// An operator, a parenthesis or a comma.
     Sign(&'static str),
     End,
 }
 
-/// Signs. In the list, a longer sign such as `<=` precedes a shorter sign with which it begins, such as `<`.
+/// Signs. In the list, `<=` must come before `<`, because the parser uses the first sign that matches.
 const SIGNS: [&str; 14] = ["<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
 
-/// Operators of other languages, with the operators to use instead.
+/// Operators of programming languages that are not allowed in expressions, each with the operator to use
+/// instead.
 const FOREIGN: [(&str, &str); 6] =
     [("**", "^ for powers"), ("&&", "and"), ("||", "or"), ("<>", "!="), ("=", "== to compare"), ("!", "not")];
 
@@ -427,7 +436,7 @@ impl<'t> Tokens<'t> {
         Tokens { text, at: 0, has_units }
     }
 
-    /// Returns the next token with the position of its bytes. After the last token, always returns [`Token::End`].
+    /// Returns the next token with its byte range. After the last token, always returns [`Token::End`].
     pub(super) fn next(&mut self) -> Result<(Token<'t>, Range<usize>), ExpressionError> {
         self.at = self.text.len() - self.text[self.at..].trim_start().len();
         let rest = &self.text[self.at..];
@@ -452,7 +461,8 @@ impl<'t> Tokens<'t> {
     }
 }
 
-/// A token and its length. Positions of mistakes are counted from the beginning of the rest of the text.
+/// A token with its length in bytes, or a mistake. The position of the mistake is counted from the first byte
+/// of the token.
 type Found<'t> = Result<(Token<'t>, usize), ExpressionError>;
 
 fn is_name(character: char) -> bool {
@@ -480,7 +490,8 @@ fn number(rest: &str, has_units: bool) -> Found<'_> {
     }
 }
 
-/// Returns the number of bytes of the unit at the beginning of `text`; 0 if `text` does not begin with a unit.
+/// Returns the length in bytes of the unit at the beginning of `text`, or 0 if `text` does not begin with a
+/// unit.
 fn unit_length(text: &str) -> usize {
     let word = text.find(|letter| !is_name(letter)).unwrap_or(text.len());
     let is_unit = text.starts_with(|letter: char| letter.is_alphabetic() || "°%".contains(letter));

@@ -14,38 +14,42 @@ pub enum Kind {
 /// Meaning of a name in an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Meaning<'a> {
-    /// A number. The variant contains the index in the values.
+    /// A number. The variant contains the index of the number in the list of values.
     Number(usize),
-    /// A condition. The variant contains the index in the values, as returned by
-    /// [`Expression::value`](super::Expression::value).
+    /// A condition. The variant contains the index of the condition in the list of values. The value of a
+    /// condition has the form that [`Expression::value`](super::Expression::value) returns.
     Condition(usize),
-    /// A choice. The variant contains the index in the values, and the options. The value is the index of an option.
+    /// A choice. The variant contains the index of the choice in the list of values, and the names of its
+    /// options. The value of a choice is the index of the chosen option.
     Choice(usize, &'a [&'a str]),
     /// Constant.
     Constant(f64),
-    /// Number that depends on the choice with this index in the values: a number for each option.
+    /// A number that depends on a choice. The variant contains the index of the choice in the list of values,
+    /// and one number for each option.
     OfChoice(usize, Arc<[f64]>),
-    /// Number of a parameter that is not set. The first text describes the parameters from which the number is
-    /// computed. The second text names the designs without the number, such as "the device `long`", or is empty if all
-    /// designs lack the number.
+    /// A parameter that has no number. The first text describes the parameters from which the value is
+    /// computed. The second text lists the designs without a number, such as "the device `long`", or is empty
+    /// if all designs lack the number.
     Unset(&'static str, String),
 }
 
 /// Names that an expression may use.
 pub trait Scope {
-    /// Returns the meaning of `name`, if the name has a meaning.
+    /// Returns the meaning of `name`, or `None` if the name is unknown.
     fn meaning(&self, name: &str) -> Option<Meaning<'_>>;
 
-    /// Returns all names, for suggestions after a misspelling.
+    /// Returns all known names. If a name is misspelled, the error message suggests one of these names.
     fn names(&self) -> Vec<String>;
 
-    /// Returns true if numbers may have units beside the name with which they are compared: `drive_frequency > 95 Hz`.
+    /// Returns true if a number may have a unit when it is compared with a name, as in
+    /// `drive_frequency > 95 Hz`.
     fn has_units(&self) -> bool {
         false
     }
 
-    /// Returns the unit of the values of `name`, to which a number with a unit is converted. The unit of pure numbers is
-    /// empty. `None` for an unknown name.
+    /// Returns the unit of the values of `name`. A number with a unit that is compared with `name` is
+    /// converted to this unit. The unit of pure numbers is an empty text. Returns `None` if the name is
+    /// unknown.
     fn unit(&self, _name: &str) -> Option<String> {
         None
     }

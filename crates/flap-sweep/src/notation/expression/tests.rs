@@ -2,7 +2,8 @@ use proptest::prelude::*;
 
 use super::*;
 
-/// `T`, `preset.kappa`, `x` and `y` are numbers, `ok` a condition, `arms` a choice, `width` not set.
+/// In this scope, `T`, `preset.kappa`, `x` and `y` are numbers, `ok` is a condition, `arms` is a choice, and
+/// `width` has no value.
 struct Names;
 
 const OPTIONS: &[&str] = &["printed", "axis"];
@@ -33,7 +34,7 @@ fn value(text: &str) -> f64 {
     expression.value(&VALUES)
 }
 
-/// Mistakes of other expression libraries first, then all other cases.
+/// The first cases are expressions that some expression libraries compute wrongly, such as `-2^2`.
 #[test]
 fn numbers() {
     let scaled = 1.52e-6 * libm::pow(2000.0 / 3333.0, -1.47);
@@ -128,11 +129,12 @@ fn reads_are_the_places_of_the_names() {
     assert_eq!(expression.reads().collect::<Vec<_>>(), [1, 0, 1]);
 }
 
-/// Message at a token where an operator is expected.
+/// Message if an operator is missing before a token.
 const OPERATOR: &str =
     "expected an operator; values are in SI units and written without them; products need a `*`";
 
-/// Texts with their wrong parts and the whole messages.
+/// Each case contains an expression with mistakes. For each mistake, the case contains the wrong part of the
+/// expression and the complete message.
 #[test]
 fn mistakes_say_what_and_where() {
     let cases: [(&str, &[(&str, &str)]); 35] = [
@@ -216,7 +218,7 @@ fn comparisons_have_their_places_in_the_text() {
     assert!(Expression::parse("x < 1 or y < 2", &Names).expect("an expression").comparisons().is_none());
 }
 
-/// Columns with units: a frequency, a stiffness and a pure number.
+/// A scope of columns with units: a frequency, a stiffness and a pure number.
 struct Columns;
 
 impl Scope for Columns {

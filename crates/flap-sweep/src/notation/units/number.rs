@@ -1,7 +1,7 @@
-//! Decimal numbers whose exponent is shifted in the text, and mistakes in quantities.
+//! Parses decimal numbers, multiplies them by powers of ten, and describes mistakes in quantities.
 //!
-//! `51.1e-12` computed as `51.1 * 1e-12` is rounded twice and may differ from the literal in its last bit. If the
-//! exponent is shifted in the text, the number is rounded only once.
+//! The product `51.1 * 1e-12` is rounded twice, and may differ from the float `51.1e-12` in the last bit.
+//! This module changes the exponent in the text of a number, so that the number is rounded only once.
 
 use std::fmt;
 use std::ops::Range;
@@ -9,7 +9,7 @@ use std::ops::Range;
 /// A mistake in a quantity, with its position in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct UnitError {
-    /// Bytes of the text with the mistake.
+    /// Byte range of the mistake in the text.
     pub span: Range<usize>,
     /// Mistake.
     pub problem: UnitProblem,
@@ -22,9 +22,9 @@ pub enum UnitProblem {
     NoNumber,
     /// Text that begins like a number but is not a number, such as `1e-3e`.
     BadNumber(String),
-    /// The number is infinite or not a number.
+    /// The number is `inf`, `nan` or a similar word.
     NotFinite(String),
-    /// The number in the text is above the largest 64-bit float.
+    /// The magnitude of the number in the text is above the largest 64-bit float.
     TooLarge(String),
     /// The number in the text is not zero but too small for a 64-bit float.
     TooSmall(String),
@@ -32,7 +32,7 @@ pub enum UnitProblem {
     NoUnit {
         /// Expected SI unit.
         wanted: String,
-        /// Usual ways to write the quantity.
+        /// Usual units of the expected quantity.
         usual: Vec<String>,
     },
     /// The unit is unknown.
@@ -41,12 +41,12 @@ pub enum UnitProblem {
         unit: String,
         /// Most similar known unit.
         nearest: Option<String>,
-        /// Usual ways to write the expected unit; empty for a pure number.
+        /// Usual units of the expected quantity; empty for a pure number.
         usual: Vec<String>,
     },
     /// The unit is malformed.
     BadUnit(&'static str),
-    /// The expected unit is not a unit of flap, and the unit in the text is a different unit.
+    /// flap does not know the expected unit, and the text contains a different unit.
     NotConverted {
         /// Unit in the text of the quantity.
         unit: String,
@@ -57,17 +57,17 @@ pub enum UnitProblem {
     Mismatch {
         /// Unit in the text of the quantity.
         unit: String,
-        /// Name of the quantity that the expected unit measures, such as `a time`.
+        /// Name of the quantity that the unit in the text measures, such as `a time`.
         measures: String,
         /// Expected SI unit; empty for a pure number.
         wanted: String,
-        /// Usual ways to write the quantity; empty for a pure number.
+        /// Usual units of the expected quantity; empty for a pure number.
         usual: Vec<String>,
     },
 }
 
 impl UnitError {
-    /// Returns the message. `what` is the name of the value.
+    /// Returns the message. `what` is the name of the value in the message.
     pub fn message(&self, what: &str) -> String {
         match &self.problem {
             UnitProblem::NoNumber => format!("{what} must start with a number"),
@@ -142,8 +142,8 @@ pub(crate) struct Number<'t> {
     exponent: i64,
 }
 
-/// Returns two lengths in bytes of the decimal number without a sign at the beginning of `text`: without and with the
-/// exponent. The number may be empty or a single point.
+/// Finds the decimal number without a sign at the beginning of `text`. Returns the length of the number in
+/// bytes, first without the exponent, then with the exponent. The number may be empty or a single point.
 pub(crate) fn decimal(text: &str) -> (usize, usize) {
     let bytes = text.as_bytes();
     let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();
@@ -165,7 +165,8 @@ pub(crate) fn decimal(text: &str) -> (usize, usize) {
 /// Returns the number at the beginning of `text`, and its length in bytes.
 ///
 /// # Errors
-/// An error if `text` does not start with a number, or other characters follow the number (`1e-3e`, `1.2.3`, `1,5`).
+/// Returns an error if `text` does not start with a number, or if the number is malformed, such as `1e-3e`,
+/// `1.2.3` or `1,5`.
 pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
     let sign = usize::from(text.starts_with(['+', '-']));
     let word = text[sign..].split(|c: char| !c.is_alphabetic()).next().unwrap_or("");
@@ -187,7 +188,8 @@ pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
     Ok((Number { text: &text[..end], mantissa, exponent }, end))
 }
 
-/// Returns the exponent. An exponent beyond `i64` overflows a float, as any other large exponent does.
+/// Returns the exponent. The magnitude of the result is at most 1e12, because such exponents already exceed
+/// the range of a float.
 fn read_exponent(text: &str) -> i64 {
     const BEYOND: i64 = 1_000_000_000_000;
     let limit = if text.starts_with('-') { -BEYOND } else { BEYOND };
@@ -195,11 +197,11 @@ fn read_exponent(text: &str) -> i64 {
 }
 
 impl Number<'_> {
-    /// Returns the float nearest to the decimal number times ten to the power `shift`.
+    /// Multiplies the decimal number by ten to the power `shift`, and returns the nearest float.
     ///
     /// # Errors
-    /// An error if the result is too large for a float, or if a result other than zero is too small for a float. The
-    /// span of the error covers the whole number.
+    /// Returns an error if the result is too large for a float, or if the result is not zero but too small
+    /// for a float. The span of the error covers the whole number.
     pub(crate) fn shifted(self, shift: i32) -> Result<f64, UnitError> {
         let refused = |problem| Err(UnitError { span: 0..self.text.len(), problem });
         let text = format!("{}e{}", self.mantissa, self.exponent + i64::from(shift));
@@ -218,7 +220,7 @@ impl Number<'_> {
 mod tests {
     use super::*;
 
-    /// Returns value and length of the number at the beginning of `text`.
+    /// Returns the value and the length of the number at the beginning of `text`.
     fn value(text: &str) -> (f64, usize) {
         let (number, length) = scan(text).expect(text);
         (number.shifted(0).expect(text), length)

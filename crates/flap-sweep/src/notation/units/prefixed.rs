@@ -1,4 +1,4 @@
-//! Numbers in SI units with a suitable prefix.
+//! Converts numbers in SI units to text with a suitable prefix.
 
 use super::parse_as;
 
@@ -6,8 +6,7 @@ use super::parse_as;
 const PREFIXES: [(&str, i32); 9] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("u", -6), ("n", -9), ("p", -12), ("f", -15)];
 
-/// Returns `value` in `si_unit` with six digits and the prefix that leaves few digits before the point: `17 mm` for
-/// 0.017 m.
+/// Returns the text of `value` with six digits, the unit and a suitable prefix, such as `17 mm` for 0.017 m.
 ///
 /// [`parse_as`] reads the text.
 pub fn prefixed(value: f64, si_unit: &str) -> String {
@@ -16,8 +15,8 @@ pub fn prefixed(value: f64, si_unit: &str) -> String {
     format!("{} {unit}", digits(value)).trim_end().to_owned()
 }
 
-/// Returns `value` in `si_unit` with the same prefix and all digits. [`parse_as`] reads the text back as exactly the
-/// same float.
+/// Returns the text of `value` with all digits, and with the same prefix as in [`prefixed`]. From this text,
+/// [`parse_as`] reads exactly the same float.
 pub fn exact(value: f64, si_unit: &str) -> String {
     let (unit, tens) = unit_for(value, si_unit);
     let scientific = format!("{value:e}");
@@ -31,8 +30,7 @@ pub fn exact(value: f64, si_unit: &str) -> String {
     plain.filter(is_same).unwrap_or_else(|| format!("{value:?} {si_unit}").trim_end().to_owned())
 }
 
-/// Returns the unit with the prefix that leaves few digits of `value` before the point, and the prefix's power of
-/// ten.
+/// Returns the unit with the prefix that is suitable for `value`, and the power of ten of the prefix.
 fn unit_for(value: f64, si_unit: &str) -> (String, i32) {
     let (symbol, rest) = split(si_unit);
     if symbol.is_empty() || symbol == "rad" || value == 0.0 || !value.is_finite() {
@@ -48,9 +46,10 @@ fn unit_for(value: f64, si_unit: &str) -> (String, i32) {
     (format!("{prefix}{symbol}{rest}"), ten * power - kilo)
 }
 
-/// Returns `value` with the prefix that brings the value closest to `usual`: 0.017 for 17 m if 0.0165 m is usual.
+/// Finds the prefix that the user has probably forgotten, and returns `value` with this prefix. For example,
+/// if `usual` is 0.0165 m and `value` is 17 m, the result is 0.017 m.
 ///
-/// `None` if no prefix brings the value within a factor of ten of `usual`.
+/// Returns `None` if no prefix brings the value within a factor of ten of `usual`.
 pub fn meant(value: f64, usual: f64, si_unit: &str) -> Option<f64> {
     let (symbol, rest) = split(si_unit);
     if symbol.is_empty() || symbol == "rad" {
@@ -68,13 +67,13 @@ fn split(unit: &str) -> (&str, &str) {
     unit.split_at(unit.find(|letter: char| !letter.is_alphabetic()).unwrap_or(unit.len()))
 }
 
-/// Returns the power of a symbol before `rest`, such as 2 before `^2`.
+/// Returns the power at the beginning of `rest`, such as 2 for `^2`, or 1 if `rest` begins with no power.
 fn power(rest: &str) -> i32 {
     let digits = rest.strip_prefix('^').and_then(|rest| rest.get(..1));
     digits.and_then(|digit| digit.parse().ok()).unwrap_or(1)
 }
 
-/// Returns a number with six digits.
+/// Returns the text of a number, rounded to six digits.
 fn digits(value: f64) -> String {
     let rounded: f64 = format!("{value:.5e}").parse().unwrap_or(value);
     if rounded != 0.0 && !(1e-4..1e9).contains(&rounded.abs()) {

@@ -53,7 +53,7 @@ fn other_factors_are_applied_once() {
     }
 }
 
-/// Text, expected unit, the wrong part of the text, and the whole message.
+/// Each case contains a text, the expected unit, the wrong part of the text, and the complete message.
 #[test]
 fn mistakes_say_what_and_where() {
     let cases = [
@@ -100,7 +100,7 @@ fn mistakes_say_what_and_where() {
     }
 }
 
-/// A unit of a model that is not a unit of flap is not converted.
+/// Numbers in a unit that flap does not know, such as `rpm` in a model, are not converted.
 #[test]
 fn units_that_are_not_of_flap_are_not_converted() {
     assert_eq!(parse_as("3000 rpm", "rpm"), Ok(3000.0));
@@ -121,7 +121,7 @@ fn spans_survive_leading_spaces() {
 }
 
 proptest! {
-    /// Any float with a prefix reads back with the same bits as the SI literal.
+    /// A number with a prefix, such as `135 um`, has the same bits as the float in SI units, `135e-6`.
     #[test]
     fn prefixes_round_trip(digits in -999_999_999_i64..1_000_000_000, exponent in -20..20_i32, choice in 0..8_usize) {
         let (prefix, power) =
@@ -131,7 +131,7 @@ proptest! {
         prop_assert_eq!(value.to_bits(), literal.to_bits());
     }
 
-    /// The text that Rust prints for a float reads back with the same bits.
+    /// From the text that Rust prints for a float, the parser reads a float with the same bits.
     #[test]
     fn floats_round_trip(value in proptest::num::f64::NORMAL) {
         prop_assert_eq!(parse_as(&format!("{value:?} V"), "V"), Ok(value));

@@ -1,17 +1,18 @@
-//! Unit expressions: `V`, `uN*m/rad`, `mm²`, `kg/(m*s)`; their dimensions; and the table of units.
+//! Parses units such as `V`, `uN*m/rad`, `mm²` or `kg/(m*s)`, and contains the table of all units with their
+//! dimensions.
 
 use std::fmt;
 
 use super::number::{UnitError, UnitProblem};
 
-/// A unit: the dimension of the unit, and the conversion to SI.
+/// A unit, with its dimension and its conversion to SI units.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unit {
     pub(super) dimension: Dimension,
-    /// Power of ten for the conversion to SI.
+    /// Power of ten in the conversion to SI units.
     pub(super) shift: i32,
-    /// Factors that are not powers of ten, in the numerator and the denominator. Division by 60 is exact,
-    /// multiplication by 1/60 is not.
+    /// Numerator of the factor in the conversion to SI units that is not a power of ten. The numerator and
+    /// the denominator are stored separately, because 60 is an exact float, but 1/60 is not.
     pub(super) above: f64,
     pub(super) below: f64,
 }
@@ -19,7 +20,7 @@ pub(super) struct Unit {
 impl Unit {
     const ONE: Unit = Unit { dimension: Dimension::base(0, 0, 0, 0), shift: 0, above: 1.0, below: 1.0 };
 
-    /// Returns the product of this unit and a symbol to a power.
+    /// Returns this unit times a symbol with a prefix, which is raised to a power.
     fn times(mut self, symbol: &Symbol, prefix: i32, power: i32) -> Unit {
         self.dimension = self.dimension.times(symbol.dimension, power);
         self.shift = self.shift.saturating_add((symbol.shift + prefix).saturating_mul(power));
@@ -34,10 +35,10 @@ impl Unit {
 
 /// Parses the unit `text`. Empty text is the unit of pure numbers.
 ///
-/// Products and quotients associate to the left: `N/m*s` is `(N/m)*s`.
+/// Products and quotients are computed from left to right: `N/m*s` is `(N/m)*s`.
 ///
 /// # Errors
-/// Mistakes, each with its position within `text`.
+/// Returns the first mistake, with its position in `text`.
 pub(super) fn parse(text: &str) -> Result<Unit, UnitError> {
     let mut reader = Reader { text, at: 0 };
     let mut unit = Unit::ONE;
@@ -68,7 +69,7 @@ pub(super) fn parse(text: &str) -> Result<Unit, UnitError> {
     }
 }
 
-/// The current position in the text of a unit.
+/// The text of a unit, and the current position of the parser in the text.
 struct Reader<'t> {
     text: &'t str,
     at: usize,
@@ -91,13 +92,13 @@ impl<'t> Reader<'t> {
         found
     }
 
-    /// Returns an error at the next character.
+    /// Returns an error whose position is the next character.
     fn expected(&self, expected: &'static str) -> UnitError {
         let length = self.rest().chars().next().map_or(0, char::len_utf8);
         UnitError { span: self.at..self.at + length, problem: UnitProblem::BadUnit(expected) }
     }
 
-    /// Returns the sign of the powers after `*` (1) or `/` (-1).
+    /// Consumes `*` or `/`, and returns the sign of the next power: 1 after `*`, and -1 after `/`.
     fn operator(&mut self) -> Result<i32, UnitError> {
         if self.take("/") {
             Ok(-1)
@@ -108,7 +109,7 @@ impl<'t> Reader<'t> {
         }
     }
 
-    /// Returns `unit` times the next symbol with its power.
+    /// Parses the next symbol and its power, and returns `unit` times this symbol to this power.
     fn factor(&mut self, unit: Unit, sign: i32) -> Result<Unit, UnitError> {
         if self.take("1") {
             return Ok(unit);
@@ -141,7 +142,7 @@ impl<'t> Reader<'t> {
         Ok(unit.times(symbol, prefix, sign * power))
     }
 
-    /// Parses `^2`, `^-1`, `²`, `⁻¹`, or nothing for 1.
+    /// Parses a power such as `^2`, `^-1`, `²` or `⁻¹`. Without a power in the text, the result is 1.
     fn power(&mut self) -> Result<i32, UnitError> {
         const SUPERSCRIPTS: [char; 10] = ['⁰', '¹', '²', '³', '⁴', '⁵', '⁶', '⁷', '⁸', '⁹'];
         let caret = self.take("^");
@@ -169,7 +170,7 @@ impl<'t> Reader<'t> {
     }
 }
 
-/// Exponents of the SI base units that models need: metre, kilogram, second, ampere.
+/// Dimension of a quantity: the exponents of the SI base units metre, kilogram, second and ampere.
 ///
 /// An angle is a pure number, so a torsional stiffness may be given in N*m/rad or N*m. The powers of radians and hertz
 /// are nevertheless counted, because 100 Hz and 100 rad/s are different frequencies.
@@ -181,7 +182,7 @@ pub(super) struct Dimension {
 }
 
 impl Dimension {
-    /// Returns the dimension of a product of metres, kilograms, seconds and amperes to the given powers.
+    /// Returns the dimension with the given exponents of metre, kilogram, second and ampere.
     pub(super) const fn base(metre: i32, kilogram: i32, second: i32, ampere: i32) -> Dimension {
         Dimension { base: [metre, kilogram, second, ampere], radian: 0, hertz: 0 }
     }
@@ -192,7 +193,8 @@ impl Dimension {
     /// Cycles per second.
     pub(super) const FREQUENCY: Dimension = Dimension { base: [0, 0, -1, 0], radian: 0, hertz: 1 };
 
-    /// Returns the dimension of the product of this quantity and another quantity to the given power.
+    /// Returns the dimension of a product: this quantity times a second quantity that is raised to the power
+    /// `power`.
     pub(super) fn times(self, other: Dimension, power: i32) -> Dimension {
         // Saturating: with absurd exponents the dimension does not match.
         let add = |a: i32, b: i32| a.saturating_add(b.saturating_mul(power));
@@ -203,7 +205,8 @@ impl Dimension {
         Dimension { base, radian: add(self.radian, other.radian), hertz: add(self.hertz, other.hertz) }
     }
 
-    /// Returns true if a value of this dimension is allowed for a `wanted` dimension.
+    /// Returns true if a value with this dimension is allowed where a value with the dimension `wanted` is
+    /// expected.
     pub(super) fn fits(self, wanted: Dimension) -> bool {
         let mixes_turns_and_radians =
             (self.hertz != 0 && wanted.radian != 0) || (self.radian != 0 && wanted.hertz != 0);
@@ -235,7 +238,8 @@ impl fmt::Display for Dimension {
     }
 }
 
-/// Dimensions with a name. In the list, angles and frequencies precede pure numbers and rates.
+/// Dimensions with a name. In the list, angles and frequencies come before pure numbers and rates, because
+/// the first match is used.
 const NAMES: &[(Dimension, &str)] = &[
     (Dimension::ANGLE, "an angle"),
     (Dimension { base: [0, 0, -1, 0], radian: 1, hertz: 0 }, "an angular rate"),
@@ -266,19 +270,21 @@ const NAMES: &[(Dimension, &str)] = &[
     (Dimension::base(2, 1, -3, -2), "a resistance"),
 ];
 
-/// A unit that has a symbol.
+/// A unit with its own symbol, such as `V` or `min`.
 #[derive(Debug)]
 pub(super) struct Symbol {
     /// Symbol.
     pub(super) name: &'static str,
     pub(super) dimension: Dimension,
-    /// Power of ten for the conversion to SI, which is exact and applied to the text of the number.
+    /// Power of ten in the conversion to SI units. The power is added to the exponent in the text of the
+    /// number, so the conversion is exact.
     pub(super) shift: i32,
-    /// Factor to SI after `shift`: 1 for decimal units.
+    /// Factor in the conversion to SI units in addition to `shift`, such as 60 for minutes; 1 for decimal
+    /// units.
     pub(super) factor: f64,
     /// True if the unit allows prefixes.
     prefixes: bool,
-    /// Usual forms of the unit for messages, beginning with the SI form.
+    /// Usual units of the same quantity, for messages. The first unit is the SI unit.
     usual: &'static [&'static str],
 }
 
@@ -317,7 +323,8 @@ const OHM: Dimension = Dimension::base(2, 1, -3, -2);
 const OHMS: &[&str] = &["Ohm", "kOhm", "MOhm"];
 const ANGLES: &[&str] = &["rad", "mrad", "deg"];
 
-/// All units. No symbol may equal another symbol with a prefix.
+/// All units. A symbol must not equal a different symbol with a prefix: for example, no unit may have the
+/// symbol `mm`.
 pub(super) const SYMBOLS: &[Symbol] = &[
     prefixed("m", Dimension::base(1, 0, 0, 0), &["m", "mm", "um"]),
     // The SI unit is the kilogram.
@@ -346,7 +353,8 @@ pub(super) const SYMBOLS: &[Symbol] = &[
     Symbol { shift: -2, ..alone("%", Dimension::base(0, 0, 0, 0), 1.0, &["%"]) },
 ];
 
-/// Returns the unit called `name`, and the power of ten of its prefix.
+/// Returns the symbol of the unit `name`, and the power of ten of its prefix: for example, `m` and -3 for
+/// `mm`.
 pub(super) fn find(name: &str) -> Option<(&'static Symbol, i32)> {
     if let Some(symbol) = SYMBOLS.iter().find(|symbol| symbol.name == name) {
         return Some((symbol, 0));
