@@ -42,8 +42,8 @@ impl<W: Write> Sink for CsvSink<W> {
 }
 
 /// Converts an error of the csv crate into an I/O error. If the table has a mistake, such as a missing cell,
-/// the result is [`io::ErrorKind::InvalidData`] with the number of the line. If the operating system reported
-/// the error, such as a closed pipe, the result is this error.
+/// the result is [`io::ErrorKind::InvalidData`] with the number of the line. An error of the operating
+/// system, such as a closed pipe, is returned unchanged.
 ///
 /// The conversion that the csv crate provides would hide the error of the operating system.
 pub fn cause(error: csv::Error) -> io::Error {

@@ -63,7 +63,7 @@ impl Inputs {
 
     /// Checks that a job with the result file `output` overwrites no input file. The function applies
     /// [`Inputs::protect`] to the result file, to its replacement, and to the files that flap stores beside
-    /// them.
+    /// these two files.
     ///
     /// # Errors
     /// Returns an [`Overlap`] with the first input file that would be overwritten.

@@ -102,7 +102,7 @@ pub fn parse(text: &[u8]) -> Option<JournalContents> {
 /// first line of a journal is incomplete, the run has written no rows.
 ///
 /// # Errors
-/// The error of the operating system if the file cannot be read.
+/// Returns the error of the operating system if the file cannot be read.
 pub fn read(path: &Path) -> io::Result<Option<JournalContents>> {
     match fs::read(path) {
         Ok(text) => Ok(parse(&text)),
@@ -140,7 +140,7 @@ impl Journal {
     /// Opens a journal to add checkpoints after its first `bytes` bytes, and removes all later bytes.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be opened or truncated.
+    /// Returns the error of the operating system if the file cannot be opened or truncated.
     pub fn after(path: &Path, bytes: u64) -> io::Result<Journal> {
         // Not opened for appending: Windows cannot truncate such a file.
         let mut file = OpenOptions::new().write(true).open(path)?;
@@ -152,7 +152,7 @@ impl Journal {
     /// Adds a checkpoint. The rows before the checkpoint must be safe on disk.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be written.
+    /// Returns the error of the operating system if the file cannot be written.
     pub fn add(&mut self, checkpoint: &Checkpoint) -> io::Result<()> {
         self.add_line(checkpoint)
     }

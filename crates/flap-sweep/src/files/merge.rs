@@ -121,8 +121,8 @@ pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
     Ok(())
 }
 
-/// Returns the identity of the rows of a shard without the shard and the build. The result is equal for all
-/// shards of one sweep.
+/// Returns the settings that determine the rows of a shard, without the number of the shard and without the
+/// build of flap. These settings are equal for all shards of one sweep.
 fn shared(sidecar: &Sidecar) -> Identity {
     let (flap, build) = (String::new(), String::new());
     Identity { flap, build, selection: Selection::All.to_string(), ..sidecar.identity.clone() }
@@ -132,7 +132,8 @@ fn shared(sidecar: &Sidecar) -> Identity {
 /// empty.
 ///
 /// The sidecar resembles the sidecar of a sweep on one machine, but lists the versions and builds of all
-/// shards. The numbers of threads and the durations of the shards are added up.
+/// shards. The sidecar contains the sum of the threads of all shards, and the sum of the durations of all
+/// shards.
 pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
     let sidecars = || parts.iter().map(|part| &part.sidecar);
     let all = |name: fn(&Sidecar) -> &String| {

@@ -1,4 +1,4 @@
-//! Reads and writes result files. Files beside a result file record the origin of its rows and the progress
+//! Reads and writes result files. Files beside a result file record the origin of the rows and the progress
 //! of the run.
 //!
 //! The module `beside` contains the names of the files beside results, `disk` writes files, and [`results`]

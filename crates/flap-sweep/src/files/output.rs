@@ -54,7 +54,7 @@ impl CreateError {
     }
 }
 
-/// Opens a result file for writing. The first byte is written at the beginning of the file.
+/// Opens a result file for writing from the beginning of the file.
 ///
 /// Returns the file and its lock. While the file is locked, other runs cannot write to it. Devices and pipes
 /// have no lock.
@@ -66,8 +66,8 @@ impl CreateError {
 /// - [`CreateError::Exists`] if the file has contents and `overwrite` is false.
 /// - [`CreateError::Unfinished`] if the file or its replacement has a journal and `overwrite` is false.
 /// - [`CreateError::InTheWay`] if a file of another program has the name of the sidecar or of the lock file.
-///   If `overwrite` is false, a sidecar is an error too, except the sidecar of a run that was killed before
-///   its first row.
+///   If `overwrite` is false, an existing sidecar is an error too, unless a run that was killed before its
+///   first row has left it.
 /// - [`CreateError::Busy`] if another run has locked the file.
 /// - [`CreateError::Io`] if the file cannot be opened.
 pub fn create(path: &Path, overwrite: bool) -> Result<(File, Option<Lock>), CreateError> {

@@ -2,8 +2,8 @@
 //! files that flap wrote.
 //!
 //! flap recognises its own journals by the checksum of the first line, and its own sidecars by their entries.
-//! If a journal exists, flap also wrote the file `<results>.part`, because flap creates a journal only if
-//! this name is free.
+//! If a journal exists, flap also wrote the file `<results>.part`, because flap creates a journal only if no
+//! such file exists.
 //!
 //! With `--restart`, the earlier results keep their names until the new results are complete. Until the new
 //! results of `rows.csv` are complete, flap writes them to `rows.new.csv`, with a sidecar and a journal
@@ -32,7 +32,7 @@ pub(crate) fn has_sidecar(results: &Path) -> bool {
 /// Returns true if there is a journal beside the results.
 ///
 /// # Errors
-/// The error of the operating system if a file with the name of the journal cannot be read.
+/// Returns the error of the operating system if a file with the name of the journal cannot be read.
 pub(crate) fn has_journal(results: &Path) -> io::Result<bool> {
     Ok(journal::read(&journal_of(results))?.is_some())
 }
@@ -41,7 +41,7 @@ pub(crate) fn has_journal(results: &Path) -> io::Result<bool> {
 /// process is killed before it removes the journal, the journal still shows that flap wrote these files.
 ///
 /// # Errors
-/// The error of the operating system if a file cannot be removed.
+/// Returns the error of the operating system if a file cannot be removed.
 pub(crate) fn remove_progress(results: &Path) -> io::Result<()> {
     if has_journal(results)? {
         if Format::of(results).is_ok_and(Format::is_columnar) {
@@ -55,7 +55,7 @@ pub(crate) fn remove_progress(results: &Path) -> io::Result<()> {
 /// Removes the sidecar, the file `<results>.part` of an unfinished Parquet file, and the journal.
 ///
 /// # Errors
-/// The error of the operating system if a file cannot be removed.
+/// Returns the error of the operating system if a file cannot be removed.
 pub(crate) fn remove_companions(results: &Path) -> io::Result<()> {
     if has_sidecar(results) {
         disk::remove_if_there(&sidecar_of(results))?;
@@ -93,7 +93,7 @@ pub(crate) fn is_over(new: &Path, format: Format) -> bool {
 /// replacement.
 ///
 /// # Errors
-/// The error of the operating system if a file cannot be removed.
+/// Returns the error of the operating system if a file cannot be removed.
 pub(crate) fn discard(results: &Path) -> io::Result<()> {
     let Some(new) = unfinished(results) else { return Ok(()) };
     disk::remove_if_there(&new)?;
@@ -104,8 +104,8 @@ pub(crate) fn discard(results: &Path) -> io::Result<()> {
 /// Replaces the file `results` and its sidecar by the complete new file and the new sidecar.
 ///
 /// # Errors
-/// The error of the operating system if a file cannot be renamed, written or removed. After an error, the next call
-/// continues the replacement.
+/// Returns the error of the operating system if a file cannot be renamed, written or removed. After an error, the
+/// next call of [`commit`] continues the replacement.
 pub(crate) fn commit(results: &Path) -> io::Result<()> {
     let new = of(results);
     let beside = sidecar_of(&new);

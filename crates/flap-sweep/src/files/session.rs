@@ -34,8 +34,8 @@ use crate::table::layout::Cell;
 pub struct SessionOptions {
     /// Options of the run.
     pub run: RunOptions,
-    /// Time between checkpoints. Each checkpoint waits twice until data are safe on disk. A run that is
-    /// killed loses the rows since the last checkpoint.
+    /// Time between checkpoints. For each checkpoint, flap waits twice until data are safe on disk. A run
+    /// that is killed loses the rows since the last checkpoint.
     pub checkpoint_interval: Duration,
 }
 
@@ -210,7 +210,7 @@ impl Session {
     /// must be rows of the same plan. `summary` counts the copied rows.
     ///
     /// # Errors
-    /// The error of the operating system if a file cannot be read or written.
+    /// Returns the error of the operating system if a file cannot be read or written.
     pub(crate) fn take_over(&mut self, path: &Path, summary: &Summary, seconds: f64) -> io::Result<()> {
         let format = Format::of(path).map_err(io::Error::other)?;
         let mut reader = Reader::new(File::open(path)?, format)?;

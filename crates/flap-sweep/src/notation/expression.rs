@@ -7,7 +7,7 @@
 //! the language of expressions.
 //!
 //! Operations on NaN give NaN. A comparison with NaN is unknown: neither true nor false. If an operand of
-//! `and`, `or` or `not` is unknown, the result is unknown, unless the second operand alone determines the
+//! `and`, `or` or `not` is unknown, the result is unknown, unless the known operand alone determines the
 //! result.
 
 mod error;

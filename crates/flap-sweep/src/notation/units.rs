@@ -18,7 +18,7 @@ use unit::Unit;
 /// Returns the value of the quantity `text` in SI units. The unit in `text` must have the same dimension as
 /// `si_unit`.
 ///
-/// If `si_unit` is empty, the quantity is a pure number. Only for a pure number, `text` may contain no unit.
+/// If `si_unit` is empty, the quantity is a pure number. Only a pure number may be written without a unit.
 ///
 /// If flap does not know the unit `si_unit`, such as `rpm` in a model of another program, the unit in `text`
 /// must be exactly `si_unit`.

@@ -21,7 +21,7 @@ pub const BRANCHES: [Branch; 3] = [
 /// Rows of a branch in the order in which they were computed.
 #[derive(Clone, Copy, Debug)]
 pub struct Way<'a> {
-    /// Values of the followed parameter.
+    /// Values of the parameter that varies along the branch.
     pub x: &'a [f64],
     /// Values of the measure; NaN if missing.
     pub y: &'a [f64],
@@ -36,8 +36,8 @@ pub struct Way<'a> {
 pub struct Comparison {
     /// Bistable bands: the first and the last parameter value of each interval in which the branches differ.
     pub bands: Vec<(f64, f64)>,
-    /// Indices of the rows after which a branch jumps to the motion of the other branch: first for the branch
-    /// `up`, then for the branch `down`.
+    /// Indices of the rows after which a branch jumps to the motion of the other branch, first for `up`, then
+    /// for `down`.
     ///
     /// In the row before a jump, the motions of the two branches differ. In the row after the jump, the
     /// motions are equal.

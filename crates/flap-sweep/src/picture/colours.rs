@@ -1,7 +1,7 @@
 //! Colours of lines, points and cells.
 
-/// Colours for different lines of a picture, which people with any colour vision can distinguish (Okabe and
-/// Ito). The darker colours come first, except black, which is the last colour.
+/// Colours for different lines of a picture. People with any colour vision can distinguish these colours
+/// (Okabe and Ito). The darker colours come first, except black, which is the last colour.
 pub const SERIES: [&str; 7] = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000"];
 
 /// Colour of lines and letters that are drawn over a picture, such as Pareto fronts, percentiles and unstable

@@ -1,6 +1,6 @@
 //! Computes statistics of a sample: percentiles, bars of a histogram, and rank correlations.
 
-/// Percentiles that pictures of a histogram mark, in percent.
+/// Percentiles, in percent, that are marked in pictures of a histogram.
 pub const MARKED: [u32; 3] = [5, 50, 95];
 
 /// Returns a percentile of the ascending `values`, by linear interpolation. `share` is the fraction of the

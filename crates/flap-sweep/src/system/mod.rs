@@ -1,5 +1,5 @@
-//! Functions whose code differs between operating systems. One file for each kind of operating system
-//! contains the same functions.
+//! Functions whose code differs between operating systems. For each kind of operating system, one source file
+//! contains these functions.
 
 #[cfg(unix)]
 mod unix;

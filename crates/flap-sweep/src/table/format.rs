@@ -10,7 +10,7 @@ pub enum Format {
     Csv,
     /// Comma-separated values, compressed with Zstandard: `.csv.zst`.
     CsvZstd,
-    /// Parquet: columns with types and units, and the origin of the rows: `.parquet`.
+    /// Parquet file with types and units of columns, and with the origin of the rows: `.parquet`.
     Parquet,
 }
 

@@ -142,8 +142,8 @@ const BETTER: [(&str, Direction); 10] = [
     ("hover_growth", Direction::Smaller),
 ];
 
-/// Returns the direction in which a measure is better, which the first words of the column name determine.
-/// Returns `None` if the column is neither a benefit nor a cost.
+/// Returns the direction in which a measure is better. The first words of the column name determine the
+/// direction. Returns `None` if the column is neither a benefit nor a cost.
 pub fn better(column: &str) -> Option<Direction> {
     // The other forces and torques of a vehicle have target values: neither large nor small values are preferred.
     if column != "force_up_mn" && FORCES.contains(&column) {

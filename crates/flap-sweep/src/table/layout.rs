@@ -18,8 +18,9 @@ use crate::plan::Plan;
 /// `cycles`, `residual`, `period`, `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. A plan may select
 /// only some of the columns after `status`.
 ///
-/// Rows of response curves begin with the column `curve` instead of `point`. Rows of response curves have the
-/// columns `branch` and the followed parameter before `status`, and the column `bistable` after `status`.
+/// Rows of response curves begin with the column `curve` instead of `point`. In rows of response curves, the
+/// column `branch` and the parameter that varies along the curve come before `status`. The column `bistable`
+/// comes after `status`.
 #[derive(Debug)]
 pub struct Layout<'p> {
     /// Varied parameters, then derived parameters, each with its index in the model's parameter table.
@@ -35,9 +36,9 @@ pub struct Layout<'p> {
 pub struct Place {
     /// Branch.
     pub branch: &'static str,
-    /// Value of the followed parameter.
+    /// Value of the parameter that varies along the response curve.
     pub value: f64,
-    /// True if the motions of the branches up and down differ at this value of the followed parameter.
+    /// True if the motions of the branches `up` and `down` differ at this value of the parameter.
     ///
     /// The value is `None` for unstable orbits, and if neither of the two motions is periodic with the drive.
     pub bistable: Option<bool>,
@@ -209,7 +210,7 @@ pub fn special_columns() -> [Column; 3] {
     [branch(), bistable(), gradient_gap()]
 }
 
-/// A column of a layout.
+/// A column of a result file, and the source of the values in its cells.
 #[derive(Clone, Debug)]
 enum Entry<'p> {
     Fixed(&'static Fixed),

@@ -1,7 +1,7 @@
 //! Writes rows as lines of comma-separated values.
 //!
 //! Nearly all cells are numbers, which need no quotes. The csv crate checks every byte of a cell, so it takes
-//! twice as many instructions as this module. flap uses the csv crate only for reading.
+//! twice as many instructions as this module. The csv crate is used only for reading.
 
 use std::io::{self, BufWriter, Write};
 

@@ -280,7 +280,7 @@ pub enum JobError {
     /// The results cannot be created.
     #[error(transparent)]
     Create(#[from] CreateError),
-    /// A file with the name of the results contains other rows.
+    /// The result file exists already and does not contain the rows of the job.
     #[error("{} exists already{}", path.display(), other_rows(changes))]
     Exists {
         /// The file.

@@ -75,8 +75,8 @@ fn devices(plan: &Plan) -> Devices {
     Devices { device: device.collect() }
 }
 
-/// Returns the base values of the parameters, which apply before the axes vary parameters. Parameters whose
-/// values are computed are left out.
+/// Returns the base values of the parameters, which apply before the axes vary parameters. Parameters without
+/// a base value, such as computed parameters, are left out.
 pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {
         Some(option) => Value::String(option.to_owned()),

@@ -60,7 +60,7 @@ impl TextRows {
     /// Writes the header line. In compressed files, the header is a separate frame.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be written.
+    /// Returns the error of the operating system if the file cannot be written.
     pub fn header<T: AsRef<str>>(&mut self, names: impl IntoIterator<Item = T>) -> io::Result<()> {
         self.lines.texts(names)?;
         self.lines.flush()
@@ -69,7 +69,7 @@ impl TextRows {
     /// Writes a row.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be written.
+    /// Returns the error of the operating system if the file cannot be written.
     pub fn row<T: AsRef<str>>(&mut self, cells: impl IntoIterator<Item = T>) -> io::Result<()> {
         self.lines.texts(cells)?;
         self.end_row()
@@ -78,7 +78,7 @@ impl TextRows {
     /// Writes a row of typed cells, such as numbers, as text.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be written.
+    /// Returns the error of the operating system if the file cannot be written.
     pub(crate) fn cells(&mut self, cells: &[Cell]) -> io::Result<()> {
         self.lines.cells(cells)?;
         self.end_row()
@@ -97,7 +97,7 @@ impl TextRows {
     /// because an additional frame would change the bytes of the file.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be written.
+    /// Returns the error of the operating system if the file cannot be written.
     pub fn flush(&mut self) -> io::Result<()> {
         if self.is_compressed() { Ok(()) } else { self.lines.flush() }
     }
@@ -106,7 +106,7 @@ impl TextRows {
     /// frames.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be written.
+    /// Returns the error of the operating system if the file cannot be written.
     pub fn finish(&mut self) -> io::Result<()> {
         self.lines.flush()
     }

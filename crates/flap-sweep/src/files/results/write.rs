@@ -21,7 +21,7 @@ impl Writer {
     /// Creates an empty file.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be written.
+    /// Returns the error of the operating system if the file cannot be written.
     pub fn new(file: File, format: Format, provenance: &Provenance) -> io::Result<Writer> {
         match format {
             #[cfg(feature = "parquet")]
@@ -53,7 +53,7 @@ impl Writer {
     /// Completes the file, waits until the file is safe on disk, and returns the checksums of the file.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be written.
+    /// Returns the error of the operating system if the file cannot be written.
     pub fn finish(self) -> io::Result<Checksums> {
         match self.0 {
             Rows::Text(mut rows) => {

@@ -63,8 +63,8 @@ pub struct Sidecar {
     pub rerun: Option<Rerun>,
     /// Parameter along which response curves were computed; `None` if the rows contain no response curves.
     pub followed: Option<Followed>,
-    /// Base values of the parameters, which apply before the axes vary parameters. Parameters whose values
-    /// are computed are left out.
+    /// Base values of the parameters, which apply before the axes vary parameters. Parameters without a base
+    /// value, such as computed parameters, are left out.
     parameters: BTreeMap<String, Value>,
     /// Varied parameters.
     varied: Vec<Unit>,
@@ -315,7 +315,7 @@ impl Sidecar {
     /// Writes the sidecar to `path`, and replaces an earlier sidecar.
     ///
     /// # Errors
-    /// The error of the operating system if the file cannot be written.
+    /// Returns the error of the operating system if the file cannot be written.
     pub fn write(&self, path: &Path) -> io::Result<()> {
         self.prepare(path)?.commit()
     }

@@ -74,8 +74,8 @@ impl Sidecar {
 
     /// Converts a plan of points into a plan of response curves, with one curve for each design.
     ///
-    /// The new plan has no axis for the parameter that varies along the curves. Its parameters have the
-    /// values that the sidecar records, which may come from the command line.
+    /// The new plan has no axis for the parameter that varies along the curves. The parameters of the new
+    /// plan have the values that the sidecar records, including values from the command line.
     fn follow(&self, followed: &Followed, plan: Plan) -> Option<Plan> {
         let parameter = Parameter::index(plan.parameters(), &followed.parameter)?;
         let (mut plan, _) = plan.without_axis(parameter);

@@ -29,7 +29,7 @@ pub enum Mistake {
     NoOperator,
     /// A condition is used as a number, or a number is used as a condition.
     Mismatch,
-    /// A mistake without a kind of its own, for example an operator that is not allowed.
+    /// A mistake that no other variant describes, for example an operator that is not allowed.
     Other,
 }
 

@@ -29,7 +29,7 @@ pub(super) fn evaluate(operations: &[Operation], values: &[f64]) -> f64 {
 }
 
 /// Splits `operations` into the operations of the left operand and of the right operand of a binary operator.
-/// Returns `None` if `operations` has no two operands.
+/// Returns `None` if `operations` does not consist of two operands.
 pub(super) fn operands(operations: &[Operation]) -> Option<(&[Operation], &[Operation])> {
     // Operands that are still to be found on the way back to the beginning of the right one.
     let mut missing = 1;
@@ -123,7 +123,8 @@ pub(super) struct Operator {
 }
 
 /// Binary operators. If no side of `and` or `or` alone determines the result, the result is the product of
-/// both sides. This product is NaN if a side is NaN. Otherwise both sides are equal, and so is their product.
+/// both sides. This product is NaN if a side is NaN. If no side is NaN, both sides are equal, and their
+/// product equals both sides.
 static OPERATORS: [Operator; 13] = [
     logical("or", precedence::OR, |a, b| if a == 1.0 || b == 1.0 { 1.0 } else { a * b }),
     logical("and", precedence::AND, |a, b| if a == 0.0 || b == 0.0 { 0.0 } else { a * b }),

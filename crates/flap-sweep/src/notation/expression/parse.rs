@@ -405,7 +405,7 @@ pub(super) enum Token<'t> {
     /// A number with a unit.
     Quantity(&'t str),
     /// A name, which may contain dots, as in `preset.wing_area`. The words `and`, `or` and `not` are also
-    /// tokens of this variant.
+    /// tokens of the variant `Name`.
     Name(&'t str),
     /// A text that is written in quotes. The token contains the text without the quotes.
     Text(&'t str),

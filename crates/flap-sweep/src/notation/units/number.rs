@@ -188,8 +188,8 @@ pub(crate) fn scan(text: &str) -> Result<(Number<'_>, usize), UnitError> {
     Ok((Number { text: &text[..end], mantissa, exponent }, end))
 }
 
-/// Returns the exponent. The magnitude of the result is at most 1e12, because such exponents already exceed
-/// the range of a float.
+/// Returns the exponent. The magnitude of the result is at most 1e12, because an exponent of this size
+/// already exceeds the range of a float.
 fn read_exponent(text: &str) -> i64 {
     const BEYOND: i64 = 1_000_000_000_000;
     let limit = if text.starts_with('-') { -BEYOND } else { BEYOND };

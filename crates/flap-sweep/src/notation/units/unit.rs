@@ -11,8 +11,8 @@ pub(super) struct Unit {
     pub(super) dimension: Dimension,
     /// Power of ten in the conversion to SI units.
     pub(super) shift: i32,
-    /// Numerator of the factor in the conversion to SI units that is not a power of ten. The numerator and
-    /// the denominator are stored separately, because 60 is an exact float, but 1/60 is not.
+    /// Numerator of the conversion factor to SI units, without the power of ten. The numerator and the
+    /// denominator are stored separately, because 60 is an exact float, but 1/60 is not.
     pub(super) above: f64,
     pub(super) below: f64,
 }
