@@ -165,7 +165,7 @@ impl Journal {
     }
 }
 
-/// The last checkpoint of a journal whose rows are all in the file of rows.
+/// The last checkpoint for which all rows are in the file of rows.
 pub(crate) struct IntactRows {
     pub(crate) checkpoint: Checkpoint,
     /// Number of bytes from the beginning of the journal to the end of the checkpoint's line.
@@ -176,7 +176,7 @@ pub(crate) struct IntactRows {
     pub(crate) lost: u64,
 }
 
-/// Returns the last checkpoint of `journal` whose rows are all in `file`. Returns `None` if the bytes in
+/// Returns the last checkpoint in `journal` for which all rows are in `file`. Returns `None` if the bytes in
 /// `file` differ from the bytes that the run wrote.
 pub(crate) fn last_intact(mut file: &File, journal: &JournalContents) -> io::Result<Option<IntactRows>> {
     let mut hash = Xxh3Default::new();

@@ -24,7 +24,8 @@ pub fn read(path: &Path) -> Result<Outline, UserError> {
     parse(path, &text)
 }
 
-/// Parses the outline of a wing from the text of a CSV file. Messages about mistakes contain `path`.
+/// Parses the outline of a wing from the text of a CSV file. Messages about mistakes in the file contain its
+/// path, `path`.
 ///
 /// # Errors
 /// Returns an error if the text does not describe an outline.

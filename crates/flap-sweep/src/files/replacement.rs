@@ -104,8 +104,8 @@ pub(crate) fn discard(results: &Path) -> io::Result<()> {
 /// Replaces the file `results` and its sidecar by the complete new file and the new sidecar.
 ///
 /// # Errors
-/// Returns the error of the operating system if a file cannot be renamed, written or removed. After an error, the
-/// next call of [`commit`] continues the replacement.
+/// Returns the error of the operating system if a file cannot be renamed, written or removed. After an error,
+/// the next call of [`commit`] continues the interrupted replacement.
 pub(crate) fn commit(results: &Path) -> io::Result<()> {
     let new = of(results);
     let beside = sidecar_of(&new);

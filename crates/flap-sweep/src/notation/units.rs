@@ -119,7 +119,7 @@ fn offset(error: UnitError, start: usize) -> UnitError {
 
 /// Adds suggestions to the error about an unknown unit in `text`.
 ///
-/// The function prefers suggestions with which the whole unit has the dimension of `si_unit`.
+/// If a suggestion gives the whole unit the dimension of `si_unit`, the function prefers this suggestion.
 fn with_suggestion(mut error: UnitError, text: &str, si_unit: &str, wanted: Unit) -> UnitError {
     let span = error.span.clone();
     if let UnitProblem::UnknownUnit { unit, nearest, usual } = &mut error.problem {

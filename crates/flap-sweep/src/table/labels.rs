@@ -1,5 +1,5 @@
-//! Creates the labels of columns: the name in words, the unit, and the direction in which a measure is
-//! better.
+//! Creates the labels of columns: the name in words, the unit, and the information if larger or smaller
+//! values are better.
 
 use std::borrow::Cow;
 use std::f64::consts::PI;
@@ -16,12 +16,12 @@ pub struct Label {
     pub words: String,
     /// Unit for display, such as `N·m/rad` or `°`; empty for a column without a unit.
     pub unit: String,
-    /// Direction in which the measure is better: larger or smaller. `None` for a column that is neither a
+    /// Values of the measure that are better: larger or smaller values. `None` for a column that is neither a
     /// benefit nor a cost.
     pub better: Option<Direction>,
 }
 
-/// Direction in which a measure is better: towards larger or towards smaller values.
+/// Values of a measure that are better: larger or smaller values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Larger values of the measure are better: a benefit, such as lift.
@@ -127,7 +127,7 @@ pub fn titled(words: &str, unit: &str) -> String {
     if unit.is_empty() { words.to_owned() } else { format!("{words} ({unit})") }
 }
 
-/// Words with which the names of benefits and costs begin, each with the direction in which the measure is
+/// Words with which the names of benefits and costs begin, each with the values of the measure that are
 /// better. If two entries match a name, the longer entry comes first in the list.
 const BETTER: [(&str, Direction); 10] = [
     ("lift", Direction::Larger),
@@ -142,8 +142,8 @@ const BETTER: [(&str, Direction); 10] = [
     ("hover_growth", Direction::Smaller),
 ];
 
-/// Returns the direction in which a measure is better. The first words of the column name determine the
-/// direction. Returns `None` if the column is neither a benefit nor a cost.
+/// Returns [`Direction::Larger`] for a benefit and [`Direction::Smaller`] for a cost. The first words of the
+/// column name determine the result. Returns `None` if the column is neither a benefit nor a cost.
 pub fn better(column: &str) -> Option<Direction> {
     // The other forces and torques of a vehicle have target values: neither large nor small values are preferred.
     if column != "force_up_mn" && FORCES.contains(&column) {
