@@ -1,4 +1,4 @@
-//! The definition of a model: everything that the rows of a sweep require.
+//! The definition of a model: the data and the functions that flap needs to compute the rows of a sweep.
 
 use super::load::Load;
 use super::signal::{OverWings, SignalCycle};
@@ -15,30 +15,36 @@ use crate::parameter::{Invalid, Parameter, Preset};
 /// Name, description, parameters and properties of a model.
 #[derive(Clone, Copy, Debug)]
 pub struct Description<'a> {
-    /// Name in grid files, such as `direct-drive`.
+    /// Name of the model in grid files, such as `direct-drive`.
     pub name: &'static str,
-    /// Description in one line: the mechanism and the paper.
+    /// Description of the model in one line: the mechanism and the paper.
     pub doc: &'static str,
-    /// The parameter table. A point is one `f64` per entry, see [`Parameter`].
+    /// The parameter table. A point consists of one `f64` for each parameter in this table (see
+    /// [`Parameter`]).
     pub parameters: &'a [Parameter<'a>],
     /// Published parameter sets.
     pub presets: &'static [Preset],
-    /// Sign of the pitch convention, for pictures of the wing.
+    /// Sign convention of the pitch, which flap uses in pictures of the wing.
     ///
-    /// 1 if, at a positive pitch, the trailing edge lags a wing that moves to positive stroke; −1 if it leads.
+    /// Suppose that the pitch is positive and the stroke angle increases. The sign is 1 if the trailing edge
+    /// then lags behind the leading edge, and −1 if the trailing edge leads.
     pub pitch_sign: i8,
-    /// True if the model computes the [`load`](Model::load) of the wing. Rows then contain the load if
+    /// True if the model implements [`Model::load`], which computes the aerodynamic force and moment on the
+    /// wing. The rows of such a model contain the load if
     /// [`SolverSettings::loads`](crate::simulate::SolverSettings::loads) is set.
     pub loads: bool,
-    /// Parameters that depend on a user-defined wing. `None` if the model does not support such a wing.
+    /// Function that computes the parameters of a user-defined wing. The value is `None` if the model does
+    /// not support user-defined wings.
     pub wing: Option<WingParameters>,
 }
 
-/// Function that returns the parameters that depend on a user-defined wing, by name, in SI units.
+/// Function that returns the parameters that depend on a user-defined wing: pairs of a name and a value in SI
+/// units.
 pub type WingParameters = fn(&Wing) -> Vec<(&'static str, f64)>;
 
 impl Description<'static> {
-    /// Returns the description of a model with a pitch sign of 1, without loads and without user-defined wings.
+    /// Returns the description of a model. The pitch sign is 1, and the model supports neither loads nor
+    /// user-defined wings.
     pub const fn new(
         name: &'static str,
         doc: &'static str,
@@ -49,10 +55,11 @@ impl Description<'static> {
     }
 }
 
-/// A column computed from the signals `S` of a periodic orbit of the model `M` with constants `C`.
+/// A column that flap computes from the signals of a periodic orbit. `M` is the type of the model, `C` is the
+/// type of its constants, and `S` is its set of signals.
 ///
-/// Give the type a name, `type Column = Derived<MyModel, Constants<f64>, Signals>`, and begin each column with
-/// `Column::new`: with `Derived::new`, the compiler cannot infer the argument types of the closure.
+/// Define `type Column = Derived<MyModel, Constants<f64>, Signals>`, and create each column with
+/// `Column::new`. With `Derived::new`, the compiler cannot infer the argument types of the closure.
 #[derive(Debug)]
 pub struct Derived<M, C, S: SignalSet> {
     /// Column name.
@@ -61,18 +68,20 @@ pub struct Derived<M, C, S: SignalSet> {
     pub unit: &'static str,
     /// Description in one line.
     pub doc: &'static str,
-    /// Computes the value in `unit` from the model, the point's constants and the signals over the orbit's drive
-    /// period.
+    /// Function that returns the value of the column in the unit `unit`. The arguments are the model, the
+    /// constants of the point, and the signals over a drive period of the orbit.
     ///
-    /// A signal has its mean and the quantities that its own [measures](super::Signal::measures) require. The others
-    /// are NaN.
+    /// For each signal, the mean and the quantities that the [measures](super::Signal::measures) of this
+    /// signal require are known. All other quantities are NaN.
     pub value: fn(&M, &C, &S::Of<SignalCycle>) -> f64,
-    /// Form of this column in the rows of a vehicle.
+    /// Columns in the rows of a vehicle that correspond to this column: one sum, one column per wing, or no
+    /// column.
     pub over_wings: OverWings,
 }
 
 impl<M, C, S: SignalSet> Derived<M, C, S> {
-    /// Returns a column with this name, unit, description and value.
+    /// Returns a column with the given name, unit, description and function. The rows of a vehicle omit this
+    /// column.
     pub const fn new(
         name: &'static str,
         unit: &'static str,
@@ -82,35 +91,42 @@ impl<M, C, S: SignalSet> Derived<M, C, S> {
         Derived { name, unit, doc, value, over_wings: OverWings::Omitted }
     }
 
-    /// Returns the same column with this form in the rows of a vehicle.
+    /// Returns a copy of the column with the setting `over_wings` for the rows of a vehicle.
     #[must_use]
     pub const fn over_wings(self, over_wings: OverWings) -> Derived<M, C, S> {
         Derived { over_wings, ..self }
     }
 }
 
-/// The symmetry of a point with signals `S`: if y(t) solves its equations, so does 2 · centre − y(t + T/2).
+/// The symmetry of the equations of a point. If y(t) is a solution, 2 · centre − y(t + T/2) is also a
+/// solution, where T is the drive period.
 ///
-/// T is the drive period. A switching function changes its sign under this map. A constant part of the drive or an
-/// even harmonic breaks the symmetry, unless it only shifts the centre. The search compares the equations at two
-/// states, and integrates whole periods where they differ. It does not check `second_half`: compare rows with and
-/// without [`SolverSettings::symmetry`](crate::simulate::SolverSettings::symmetry).
+/// A switching function must have opposite signs for y(t) and for this mirrored solution. A constant part of
+/// the drive breaks the symmetry, unless the constant part only shifts the centre. An even harmonic of the
+/// drive also breaks the symmetry. The search for an orbit compares the equations at a state and at its
+/// mirror image. If the equations are not symmetric, the search integrates whole periods. flap does not check
+/// the function `second_half`. To test this function, compare rows with and without
+/// [`SolverSettings::symmetry`](crate::simulate::SolverSettings::symmetry).
 #[derive(Clone, Copy, Debug)]
 pub struct Symmetry<S: SignalSet, const N: usize> {
-    /// State about which motions are mirrored.
+    /// State at the centre of the mirror symmetry.
     pub centre: [f64; N],
-    /// Computes the sums of the signals over the second half of a mirrored period from the sums over the first half.
+    /// Function that computes the [`Totals`] of the signals over the second half of a symmetric period from
+    /// the [`Totals`] over the first half.
     ///
-    /// Use [`Totals::negated`] for signals that change their sign, such as angles, and [`Totals::repeated`] for
-    /// others, such as lift and power. `None` if the sums do not follow from the first half: then whole periods are
-    /// measured.
+    /// Use [`Totals::negated`] for signals with opposite signs in the two halves, such as angles. Use
+    /// [`Totals::repeated`] for signals that are equal in the two halves, such as lift and power. The value
+    /// is `None` if the first half does not determine the totals of the second half. In this case, flap
+    /// measures whole periods.
     pub second_half: Option<SecondHalf<S>>,
 }
 
-/// Function from the sums of the signals `S` over the first half of a period to the sums over the second half.
+/// Function that takes the totals of the signals `S` over the first half of a period, and returns the totals
+/// over the second half.
 pub type SecondHalf<S> = fn(&SignalsOf<S, Totals<f64>>) -> SignalsOf<S, Totals<f64>>;
 
-/// An instant of a motion of N states, with inputs `I`.
+/// States, derivatives and inputs of a model at one instant of a motion. The model has N states and inputs of
+/// the type `I`.
 #[derive(Clone, Copy, Debug)]
 pub struct Instant<'a, R, I, const N: usize> {
     /// Inputs, see [`Ode::input`].
@@ -123,64 +139,69 @@ pub struct Instant<'a, R, I, const N: usize> {
     pub dy: &'a [R; N],
 }
 
-/// A periodically driven model with N states, whose signals are measured over a drive period.
+/// A periodically driven model with N states. flap measures the signals of the model over a drive period.
 pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// Measured signals, see [`signals!`](crate::signals).
     type Signals: SignalSet;
 
     /// Name, description, parameters and properties.
     const DESCRIPTION: Description<'static>;
-    /// Names of the states with their units: columns of trajectories.
+    /// Names of the columns in trajectories that contain the states, for example `pitch_rad`.
     const STATES: [&'static str; N];
-    /// Columns computed from the signals.
+    /// Columns that are computed from the signals.
     const DERIVED: &'static [Derived<Self, Self::Constants<f64>, Self::Signals>];
-    /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If false, these derivatives may
-    /// be NaN between the stages of a step.
+    /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If the value is false,
+    /// [`Instant::dy`] may be NaN at times between the stages of a step.
     const SIGNALS_OF_SLOPES: bool = true;
 
-    /// Returns the variant of the model for a point: the choices on which its equations branch, such as the shape of
-    /// the drive.
+    /// Returns the variant of the model for a point. A variant contains the options that select the form of
+    /// the equations, such as the shape of the drive.
     ///
-    /// Points of equal variants share lanes.
+    /// flap integrates points with equal variants together, in one group of lanes.
     fn variant(&self, values: &[f64]) -> Self {
         let _ = values;
         self.clone()
     }
 
-    /// Returns this variant with the additional terms of `other`.
+    /// Returns a copy of this variant whose equations also contain the additional terms of the variant
+    /// `other`.
     ///
-    /// Terms are additional if, where they are zero, the equations equal the equations without them. Derivatives with
-    /// respect to terms that are zero at a point use such a variant.
+    /// A term is additional if the equations with the term at zero equal the equations without the term. flap
+    /// needs this function for the derivatives with respect to parameters whose terms are zero at a point.
     fn with_terms_of(&self, other: &Self) -> Self {
         let _ = other;
         self.clone()
     }
 
-    /// Returns the start of a point's run: constants, initial state, drive period, and typical sizes of the states.
+    /// Returns the data with which the simulation of a point starts: constants, initial state, drive period,
+    /// and typical sizes of the states.
     ///
-    /// `values` contains one value per parameter. For the sizes see [`Start::scale`].
+    /// `values` contains one value per parameter. [`Start::scale`] describes the typical sizes.
     ///
-    /// Grid files check each value against its [`Range`](crate::parameter::Range). A program that reads values from
-    /// elsewhere must check them, or this function does so with [`Invalid::unless_within`].
+    /// If the values come from a grid file, flap has checked each value against the
+    /// [`Range`](crate::parameter::Range) of its parameter. If your program reads values from another source,
+    /// check the values in your program, or in this function with [`Invalid::unless_within`].
     ///
     /// # Errors
-    /// [`Invalid`] if the combination of parameter values is impossible, or a derived constant is not finite: see
-    /// [`Invalid::unless_finite`].
+    /// Returns [`Invalid`] if the combination of parameter values is impossible, or if a derived constant is
+    /// not finite (see [`Invalid::unless_finite`]).
     fn start(&self, values: &[f64]) -> Result<Start<Self::Constants<f64>, N>, Invalid>;
 
-    /// Returns the symmetry of a point with these constants. By default there is none, and all periods are integrated
-    /// in full.
+    /// Returns the symmetry of the equations with the constants `c`. By default, the equations have no
+    /// symmetry, and flap integrates whole periods.
     fn symmetry(&self, c: &Self::Constants<f64>) -> Option<Symmetry<Self::Signals, N>> {
         let _ = c;
         None
     }
 
-    /// Returns the drive of a point. The signals' harmonics refer to its phase.
+    /// Returns the drive of a point. The phases of the signals' harmonics are relative to the phase of this
+    /// drive.
     fn drive<R: Real>(c: &Self::Constants<R>) -> &DriveConstants<R>;
 
-    /// Returns the constants of a point with another motion of the body. By default the constants do not depend on it.
+    /// Returns a copy of the constants for the body motion `motion`. By default, the constants do not depend
+    /// on the motion of the body.
     ///
-    /// The constants must belong to a point with motion of the body.
+    /// The constants `c` must be the constants of a point whose body moves.
     fn with_motion(c: &Self::Constants<f64>, motion: BodyMotion<f64>) -> Self::Constants<f64> {
         let _ = motion;
         *c
@@ -193,7 +214,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         at: Instant<'_, R, Self::Input<R>, N>,
     ) -> SignalsOf<Self::Signals, R>;
 
-    /// Returns the signals of a [plain](Ode::is_plain) variant, with the bits of [`Model::signals`].
+    /// Returns the signals of a variant for which [`Ode::is_plain`] is true. The result must have the same
+    /// bits as the result of [`Model::signals`].
     #[inline(always)]
     fn plain_signals<R: Real>(
         &self,
@@ -203,37 +225,41 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         self.signals(c, at)
     }
 
-    /// Replaces the means of powers by the sums of their losses over a periodic orbit, see [`SignalCycle::balance`].
+    /// Replaces the mean powers of a periodic orbit by the sums of the mean losses (see
+    /// [`SignalCycle::balance`]).
     ///
-    /// By default all means remain.
+    /// By default, the function changes no mean power.
     fn balance_energy(cycle: &mut SignalsOf<Self::Signals, SignalCycle>) {
         let _ = cycle;
     }
 
-    /// Returns the relative difference of two means of a power after [`Model::balance_energy`]. Only integration
-    /// errors make it nonzero.
+    /// Returns the relative difference between two computations of the same mean power, after
+    /// [`Model::balance_energy`]. If the integration had no errors, this difference would be zero.
     ///
-    /// Points with an audit above `accuracy` are integrated again. By default 0.
+    /// If the energy audit exceeds the solver setting `accuracy`, flap integrates the point again. The
+    /// default is 0.
     fn energy_audit(cycle: &SignalsOf<Self::Signals, SignalCycle>) -> f64 {
         let _ = cycle;
         0.0
     }
 
-    /// Returns the load of the air on the wing at an instant, for vehicles.
+    /// Returns the aerodynamic force and moment on the wing at one instant. flap needs this load for
+    /// vehicles.
     #[inline(always)]
     fn load<R: Real>(&self, c: &Self::Constants<R>, at: Instant<'_, R, Self::Input<R>, N>) -> Load<R> {
         let _ = c;
         Load::unknown(at.side)
     }
 
-    /// Returns the time integral of the load at the wing's shoulder (N·s, N·m·s) over a step, see [`Load::at_shoulder`]. Override
-    /// it if the load jumps within steps.
+    /// Returns the time integral of the load at the wing's shoulder (N·s, N·m·s) over a step, see
+    /// [`Load::at_shoulder`]. Override this function if the load of your model jumps within steps.
     #[inline(always)]
     fn impulse<R: Lanes>(&self, c: &Self::Constants<R>, attempt: &Attempt<'_, R, N>) -> [R; 6] {
         self.impulse_of_stages(c, attempt)
     }
 
-    /// Returns the time integral of a load that does not jump within the step, from the stages of the step.
+    /// Returns the time integral of the load over a step, computed from the stages of the step. The load must
+    /// not jump within the step.
     #[inline(always)]
     fn impulse_of_stages<R: Lanes>(&self, c: &Self::Constants<R>, attempt: &Attempt<'_, R, N>) -> [R; 6] {
         let Attempt { side, step, .. } = *attempt;
@@ -247,15 +273,17 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         )
     }
 
-    /// Returns false if measures of this variant jump within steps at times that depend on the parameters. Then they have no
-    /// derivatives on fixed steps.
+    /// Returns false if loads or signals of this variant jump within steps, at times that depend on the
+    /// parameters. With fixed steps, the measures of such a variant have no derivatives with respect to the
+    /// parameters.
     fn has_slopes(&self) -> bool {
         true
     }
 
     /// Returns the number of parts into which each step is divided to find extrema of the signals.
     ///
-    /// Choose more than one if signals change faster than the motion, which determines the steps.
+    /// The size of the steps depends only on the motion. Return a number above 1 if signals change faster
+    /// than the motion.
     #[inline(always)]
     fn parts(&self) -> u32 {
         1

@@ -1,30 +1,32 @@
-//! The load of the air on a wing: force and moment at the shoulder of the wing.
+//! The load of the air on a wing: aerodynamic force and moment at the shoulder of the wing.
 
 use crate::aero::NormalLoad;
 use crate::num::Real;
 
-/// The load of the air on a wing at an instant, in directions that move with the wing.
+/// Aerodynamic force and moment on a wing at one instant, as components along axes that move with the wing.
 ///
-/// The shoulder is the intersection of span axis and stroke axis. The shoulder is the reference point of the moments.
+/// The shoulder of a wing is the intersection of its span axis and its stroke axis. All moments are moments
+/// about the shoulder.
 #[derive(Clone, Copy, Debug)]
 pub struct Load<R> {
     /// Stroke angle (rad).
     pub stroke: R,
     /// Force along the stroke axis (N), positive upwards: ∫ dL.
     pub lift: R,
-    /// Force in the stroke plane, perpendicular to the span (N): ∫ dD. The force is positive if it acts against a
-    /// positive stroke.
+    /// Force in the stroke plane, perpendicular to the span (N): ∫ dD. A positive force acts in the direction
+    /// in which the stroke angle decreases.
     pub drag: R,
     /// Moment of the lift (N·m): ∫ r dL, with the distance r from the stroke axis along the span.
     pub lift_moment: R,
     /// Moment of the drag about the stroke axis (N·m): ∫ r dD.
     pub drag_moment: R,
-    /// Moment about the span axis (N·m), positive if it moves the trailing edge against a positive stroke.
+    /// Moment about the span axis (N·m). A positive moment moves the trailing edge in the direction in which
+    /// the stroke angle decreases.
     pub span_moment: R,
 }
 
 impl<R: Real> Load<R> {
-    /// Returns a load whose components are NaN, in the number type of `number`.
+    /// Returns a load with the number type of `number`, whose components are all NaN.
     pub(crate) fn unknown(number: R) -> Load<R> {
         let unknown = number.lit(f64::NAN);
         Load {
@@ -37,7 +39,8 @@ impl<R: Real> Load<R> {
         }
     }
 
-    /// Returns the sum of this load and a load along the wing's normal, given the sine and the cosine of the pitch.
+    /// Returns the sum of this load and the load `normal` along the wing's normal. The last argument contains
+    /// the sine and the cosine of the pitch.
     #[inline(always)]
     #[must_use]
     pub fn with_normal(&self, normal: &NormalLoad<R>, [sin, cos]: [R; 2]) -> Load<R> {

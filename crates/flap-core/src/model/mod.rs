@@ -1,14 +1,17 @@
-//! The published models: parameters in SI units → constants of a point → equations of motion → signals.
+//! The published models. A model computes constants from parameters in SI units, and signals from the
+//! solution of the equations of motion.
 //!
-//! Each paper has its own folder. A model consists of:
+//! The model of each paper has its own folder. A model consists of:
 //!
 //! - a parameter struct with its table ([`crate::parameters!`]) and the published presets,
 //! - constants derived from the parameters once per point ([`crate::per_lane!`]),
-//! - the signals, a struct with one field for each ([`crate::signals!`]),
-//! - equations of motion ([`crate::ode::Ode`]) and the values of the signals ([`Model`]), written once for scalars and lanes,
-//! - for experiments, the states and drives at their beginning ([`ExperimentModel`]).
+//! - the signals, declared as a struct with one field for each signal ([`crate::signals!`]),
+//! - the equations of motion ([`crate::ode::Ode`]) and the formulas of the signals ([`Model`]), in code for
+//!   scalars and for lanes,
+//! - the states and drives with which experiments begin ([`ExperimentModel`]).
 //!
-//! [`Runner`](crate::simulate::Runner) computes the rows of a model. Its page contains a complete user-defined model.
+//! [`Runner`](crate::simulate::Runner) computes the rows of a model. The documentation of `Runner` contains a
+//! complete example of a user-defined model.
 
 pub mod bimorph;
 mod definition;

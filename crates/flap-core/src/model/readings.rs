@@ -1,8 +1,9 @@
-//! Functions for the values of derived columns that several models have.
+//! Functions that compute the values of derived columns. Several models have these columns.
 
 use super::signal::{DEGREES, GRAVITY};
 
-/// Returns the angle (deg) by which one phase (rad) lags another, in (−180, 180].
+/// Returns the angle (deg), in the range (−180, 180], by which the phase `of` (rad) lags the phase `behind`
+/// (rad).
 pub fn lag_degrees(of: f64, behind: f64) -> f64 {
     let degrees = (behind - of) * DEGREES;
     if degrees > 180.0 {
@@ -14,26 +15,26 @@ pub fn lag_degrees(of: f64, behind: f64) -> f64 {
     }
 }
 
-/// Returns a force (N) in grams-force.
+/// Converts a force from newtons to grams-force.
 pub fn grams_force(force: f64) -> f64 {
     force / GRAVITY * 1e3
 }
 
-/// Returns lift divided by power, in the unit of the lift per watt. The result is NaN unless the power is more than
-/// zero.
+/// Returns the lift divided by the power (W), in the unit of `lift` per watt. If the power is zero or
+/// negative, the result is NaN.
 pub fn efficiency(lift: f64, power: f64) -> f64 {
     if power > 0.0 { lift / power } else { f64::NAN }
 }
 
 /// Returns the largest strain of a hinge, given the strain per pitch angle (1/rad) and the largest pitch (rad).
 ///
-/// The result is NaN if the strain per angle is zero, because the dimensions of the hinge are not set.
+/// If the dimensions of the hinge are not set, `per_angle` is zero and the result is NaN.
 pub(crate) fn hinge_strain(per_angle: f64, largest: f64) -> f64 {
     if per_angle > 0.0 { per_angle * largest } else { f64::NAN }
 }
 
-/// Returns the power (W) that charges a capacitance (F) between two voltages (V) at a frequency (Hz), without charge
-/// recovery.
+/// Returns the mean power (W) that charges a capacitance (F) from one voltage (V) to another voltage at a
+/// frequency (Hz). The discharge returns no energy.
 pub(crate) fn charging(capacitance: f64, [low, high]: [f64; 2], frequency: f64) -> f64 {
     let voltage_pp = high - low;
     0.5 * capacitance * voltage_pp * voltage_pp * frequency

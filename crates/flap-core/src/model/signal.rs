@@ -3,25 +3,26 @@
 /// A signal of a model: a quantity as a function of time.
 #[derive(Clone, Copy, Debug)]
 pub struct Signal {
-    /// Name of the signal, which is the first part of the names of its columns.
+    /// Name of the signal, with which the names of the signal's columns begin.
     pub name: &'static str,
     /// Unit of the columns of the signal.
     pub unit: Unit,
-    /// Description of the signal, which is appended to words such as "mean".
+    /// Description of the signal. In the description of a column, this text follows words such as "mean".
     pub doc: &'static str,
-    /// Measures of the signal over a drive period, one column for each measure. A signal without measures is used only
-    /// in derived columns and has no column in trajectories.
+    /// Measures of the signal over a drive period. Each measure is a column of the results. A signal without
+    /// measures is used only in derived columns and has no column in trajectories.
     pub measures: &'static [Measure],
-    /// Measures that are used only in derived columns.
+    /// Measures of the signal that have no columns, but are needed to compute derived columns.
     pub needed: &'static [Measure],
-    /// Measure of the signal whose error contributes to the error estimate of a row, if the signal has such a measure.
-    /// A model has at least one signal with such a measure.
+    /// Measure of the signal whose integration error enters the error estimate of a row. The value is `None`
+    /// if the signal does not contribute to the error estimate. In each model, at least one signal
+    /// contributes to the error estimate.
     pub principal: Option<Principal>,
-    /// Measures of a force for which the rows of a vehicle have one column per wing.
+    /// For a force: measures that have one column per wing in the rows of a vehicle.
     pub of_wings: &'static [Measure],
 }
 
-/// Columns of the rows of a vehicle that correspond to one column of its wings.
+/// Columns in the rows of a vehicle that replace one column of a single wing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OverWings {
     /// One column with the sum over all wings.
@@ -45,9 +46,10 @@ impl Signal {
 
     /// Returns the columns that the rows of a vehicle contain for a measure of this signal.
     ///
-    /// For a mean power, the row contains the sum over all wings. Extrema and root mean squares of a sum depend on the
-    /// phases between the wings, so each wing has its own column. Forces are omitted, because the force of the vehicle
-    /// has separate columns.
+    /// For a mean power, the row of a vehicle contains the sum over all wings. The extrema and the root mean
+    /// square of a sum depend on the phase differences between the wings. For these measures, the row
+    /// therefore contains one column per wing. The row omits the forces of single wings, because it contains
+    /// the force on the whole vehicle.
     pub(crate) fn over_wings(&self, measure: Measure) -> OverWings {
         match (self.unit.name, measure) {
             _ if self.of_wings.contains(&measure) => OverWings::Each,
@@ -66,12 +68,13 @@ impl Signal {
         }
     }
 
-    /// Returns true if the signal has columns.
+    /// Returns true if the signal has columns of its own.
     pub(crate) fn is_shown(&self) -> bool {
         !self.measures.is_empty()
     }
 
-    /// Returns the quantities that the measures of the signal and the error of a row require.
+    /// Returns the quantities of the signal that the measures of the signal and the error estimate of a row
+    /// require.
     pub const fn statistics(&self) -> Statistics {
         let Signal { measures, needed, principal, .. } = *self;
         let mut statistics = Statistics::of(measures).or(Statistics::of(needed));
@@ -91,17 +94,17 @@ impl Signal {
 pub struct Statistics {
     /// The mean square.
     pub squared: bool,
-    /// The mean of the positive part.
+    /// The mean of the positive part of the signal.
     pub rectified: bool,
     /// The first harmonic.
     pub harmonic: bool,
-    /// The largest and the smallest value.
+    /// The largest and the smallest value of the signal.
     pub ranged: bool,
 }
 
 impl Statistics {
-    /// Returns the quantities that the `measures` require. The mean of the positive part also requires the largest and
-    /// the smallest value.
+    /// Returns the quantities that the `measures` require. All measures except the mean and the root mean
+    /// square also require the largest and the smallest value of the signal.
     const fn of(measures: &[Measure]) -> Statistics {
         let mut statistics = Statistics { squared: false, rectified: false, harmonic: false, ranged: false };
         let mut i = 0;
@@ -116,7 +119,7 @@ impl Statistics {
         statistics
     }
 
-    /// Returns the union of both sets of quantities.
+    /// Returns the quantities that are in `self` or in `other`.
     const fn or(self, other: Statistics) -> Statistics {
         Statistics {
             squared: self.squared | other.squared,
@@ -129,8 +132,8 @@ impl Statistics {
 
 /// Measure whose error contributes to the error estimate of a row.
 ///
-/// For the error estimate, a second integration with larger tolerances computes means and first harmonics, but no
-/// extrema and positive parts.
+/// For the error estimate, flap integrates again with larger tolerances. The second integration computes
+/// means and first harmonics, but no other measures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Principal {
     /// Mean.
@@ -168,14 +171,14 @@ pub enum Measure {
     Rms,
     /// Largest magnitude.
     Peak,
-    /// Mean of the positive part.
+    /// Mean of the positive part of the signal.
     Supply,
     /// Mean magnitude.
     Magnitude,
 }
 
 impl Measure {
-    /// Returns the name of the measure, which is the middle part of column names.
+    /// Returns the name of the measure, for example `mean` in the column name `lift_mean_mn`.
     pub(crate) fn name(self) -> &'static str {
         match self {
             Measure::Amplitude => "amplitude",
@@ -191,7 +194,7 @@ impl Measure {
         }
     }
 
-    /// Returns the words for the measure, to which the description of the signal is appended.
+    /// Returns the words with which the description of a column of this measure begins, such as "mean".
     pub(crate) fn describe(self) -> &'static str {
         match self {
             Measure::Amplitude => "half of the difference between the largest and the smallest",
@@ -208,18 +211,18 @@ impl Measure {
     }
 }
 
-/// Quantities of a signal over one drive period, in SI units, from which its measures are computed. Quantities that no
-/// measure requires are NaN.
+/// Quantities of a signal over one drive period, in SI units. flap computes the measures of the signal from
+/// these quantities. Quantities that no measure requires are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignalCycle {
     /// Mean.
     pub mean: f64,
     /// Mean of the square.
     pub mean_square: f64,
-    /// Mean of the positive part.
+    /// Mean of the positive part of the signal.
     pub positive_mean: f64,
-    /// Real and imaginary part of the first harmonic X in x = Re(X e^{iωt}). At t = 0, the sine of the drive rises
-    /// through zero.
+    /// Real and imaginary part of the amplitude X, where Re(X e^{iωt}) is the first harmonic of the signal.
+    /// The time t is zero when the sine of the drive rises through zero.
     pub first: [f64; 2],
     /// Largest value.
     pub max: f64,
@@ -228,23 +231,27 @@ pub struct SignalCycle {
 }
 
 impl SignalCycle {
-    /// Replaces the mean of this power by the sum of the mean `losses`, unless the mean is NaN.
+    /// Replaces the mean of this power by the sum of the mean `losses`. If the mean of this power is NaN, the
+    /// function does nothing.
     ///
-    /// In a periodic orbit, the mean power equals the sum of the mean losses, because capacitance, springs and inertia
-    /// return all their energy. If losses are small or the motion is far from resonance, the quadrature error of the
-    /// exchanged power can exceed the mean power.
+    /// In a periodic orbit, the mean power equals the sum of the mean losses, because capacitance, springs
+    /// and inertia return all stored energy. If the losses are small or the motion is far from resonance,
+    /// most of the power is stored and returned. The quadrature error of this large power can exceed the mean
+    /// power.
     pub fn balance(&mut self, losses: &[SignalCycle]) {
         if !self.mean.is_nan() {
             self.mean = losses.iter().map(|loss| loss.mean).sum();
         }
     }
 
-    /// Returns the relative difference between the means of this signal and `other`.
+    /// Returns the difference between the means of `other` and this signal, divided by the mean of this
+    /// signal.
     pub fn audit(&self, other: &SignalCycle) -> f64 {
         (other.mean - self.mean) / self.mean
     }
 
-    /// Returns the largest magnitude among the known quantities of the signal.
+    /// Returns the largest magnitude among the mean, the extrema, the mean of the positive part and the root
+    /// mean square. Quantities that are NaN are ignored.
     pub(crate) fn size(&self) -> f64 {
         let known = [self.mean, self.max, self.min, self.positive_mean, self.mean_square.sqrt()];
         known.iter().fold(0.0, |size, value| value.abs().max(size))
@@ -272,12 +279,12 @@ impl SignalCycle {
     }
 }
 
-/// A unit of columns. A model may declare further units.
+/// A unit of columns. A model may also declare units of its own.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit {
     /// Symbol of the unit, such as `mN`.
     pub name: &'static str,
-    /// Last part of column names, such as `mn`.
+    /// Abbreviation of the unit at the end of column names, such as `mn`.
     pub suffix: &'static str,
     /// Factor that converts a value in the SI unit to this unit.
     pub factor: f64,

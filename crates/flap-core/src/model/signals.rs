@@ -3,9 +3,9 @@
 use super::signal::{Signal, Statistics};
 use crate::num::{Lanes, PerLane};
 
-/// A set of signals, declared by [`signals!`](crate::signals).
+/// A set of signals that the macro [`signals!`](crate::signals) declares.
 pub trait SignalSet: Copy + 'static {
-    /// A struct with one `T` for each signal, in the field with the name of the signal.
+    /// A struct with one field of the type `T` for each signal. Each field has the name of its signal.
     type Of<T: Copy>: Copy;
 
     /// The signals of the set, in the order of their columns.
@@ -14,16 +14,16 @@ pub trait SignalSet: Copy + 'static {
     /// Returns a set that contains the same value for each signal.
     fn all<T: Copy>(value: T) -> Self::Of<T>;
 
-    /// Returns the results of `f` for each signal. The arguments of `f` are the required quantities of the signal and
-    /// two values.
+    /// Calls `f` for each signal, and returns a set of the results. The arguments of `f` are the quantities
+    /// that the signal requires, and the values of the signal in `one` and in `other`.
     fn zip<A: Copy, B: Copy, C: Copy>(
         one: &Self::Of<A>,
         other: &Self::Of<B>,
         f: impl FnMut(Statistics, A, B) -> C,
     ) -> Self::Of<C>;
 
-    /// Calls `f` for each signal. The arguments of `f` are the required quantities of the signal, a mutable reference
-    /// to its value in `of`, and its values in `from`.
+    /// Calls `f` for each signal. The arguments of `f` are the quantities that the signal requires, a mutable
+    /// reference to its value in `of`, and its values in `from`.
     fn update<A: Copy, B: Copy, const L: usize>(
         of: &mut Self::Of<A>,
         from: [&Self::Of<B>; L],
@@ -33,8 +33,8 @@ pub trait SignalSet: Copy + 'static {
     /// Returns each signal with its value, in the order of [`SignalSet::TABLE`].
     fn each<T: Copy>(of: &Self::Of<T>) -> impl Iterator<Item = (&'static Signal, T)>;
 
-    /// Returns the results of `f` for each signal. The arguments of `f` are the required quantities of the signal and
-    /// one value.
+    /// Calls `f` for each signal, and returns a set of the results. The arguments of `f` are the quantities
+    /// that the signal requires, and the value of the signal in `of`.
     #[inline(always)]
     fn map<A: Copy, B: Copy>(of: &Self::Of<A>, mut f: impl FnMut(Statistics, A) -> B) -> Self::Of<B> {
         Self::zip(
@@ -46,10 +46,11 @@ pub trait SignalSet: Copy + 'static {
     }
 }
 
-/// One `T` for each signal of the set `S`: the struct that [`signals!`](crate::signals) declares.
+/// The struct that [`signals!`](crate::signals) declares, with one field of the type `T` for each signal of
+/// the set `S`.
 pub type SignalsOf<S, T> = <S as SignalSet>::Of<T>;
 
-/// [`SignalsOf`] as a group of numbers with one set of numbers for each lane.
+/// Wrapper of [`SignalsOf`] whose fields contain one value for each lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Each<S: SignalSet, T: Copy>(pub S::Of<T>);
 
@@ -92,16 +93,17 @@ impl<S: SignalSet, R: Lanes, P: PerLane<R>> PerLane<R> for Each<S, P> {
 
 /// Declares the signals of a model: a struct with one field per signal.
 ///
-/// Each line of the macro consists of name, unit, description and [measures](crate::model::Measure). Each measure is a
-/// column of rows. A line may end with these options:
+/// Each line declares one signal by its name, unit, description and [measures](crate::model::Measure). Each
+/// measure becomes a column of the results. A line may end with these options:
 ///
 /// - `principal Mean` or `principal First`: the [measure](crate::model::Principal) whose error contributes to the error
 ///   estimate of a row
-/// - `needs [...]`: measures that are used only in derived columns
-/// - `of_wings [...]`: measures of a force for which the rows of a vehicle have one column per wing
+/// - `needs [...]`: measures that have no columns, but are needed to compute derived columns
+/// - `of_wings [...]`: measures of a force that have one column per wing in the rows of a vehicle
 ///
-/// `Signals<T>` contains one `T` for each signal. `Signals<R>` contains the values at an instant, and
-/// `Signals<SignalCycle>` the measures over a drive period. `Signals` without a type argument is the set of signals for
+/// `Signals<T>` contains one value of the type `T` for each signal. If `R` is a number type, `Signals<R>`
+/// contains the values of the signals at one instant. `Signals<SignalCycle>` contains the measured quantities
+/// of the signals over a drive period. `Signals` without a type argument is the set of signals for
 /// [`Model::Signals`](crate::model::Model::Signals).
 ///
 /// ```
@@ -134,7 +136,7 @@ macro_rules! signals {
         }
 
         impl $Name {
-            /// Descriptions of all signals, in one struct.
+            /// Names, units and measures of all signals, in one struct.
             pub const SIGNALS: $Name<$crate::model::Signal> = $Name {
                 $($signal: $crate::model::Signal {
                     $(principal: Some($crate::model::Principal::$principal),)?

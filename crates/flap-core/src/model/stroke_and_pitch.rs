@@ -1,7 +1,9 @@
-//! Models with the states `[stroke, pitch, stroke rate, pitch rate]`, whose stroke can be prescribed.
+//! Functions for models with the states `[stroke, pitch, stroke rate, pitch rate]`, in which the stroke can
+//! be prescribed.
 //!
-//! A mass matrix couples stroke and pitch. If the stroke is free, the equations of motion are solved for stroke and
-//! pitch. If the stroke is prescribed, the equations are solved for the pitch alone.
+//! A mass matrix couples stroke and pitch. If the stroke is free, the equations of motion determine the
+//! accelerations of stroke and pitch. If the stroke is prescribed, the equations of motion determine only the
+//! acceleration of the pitch.
 
 use super::experiment::Imposed;
 use crate::drive::{Drive, DriveConstants, Wave};
@@ -9,7 +11,7 @@ use crate::num::Real;
 use crate::ode::Start;
 use crate::parameter::Invalid;
 
-/// Names of the states with their units: the columns of trajectories.
+/// Names of the columns in trajectories that contain the states.
 pub const NAMES: [&str; 4] = ["stroke_rad", "pitch_rad", "stroke_rate_rad_s", "pitch_rate_rad_s"];
 
 /// Mass matrix and generalised forces at a state `[stroke, pitch, stroke rate, pitch rate]`, without the moment of the
@@ -30,7 +32,8 @@ pub struct Balance<R> {
 }
 
 impl<R: Real> Balance<R> {
-    /// Returns the time derivative of the state `y` under the torque of the drive about the stroke axis (N·m).
+    /// Returns the time derivative of the state `y` if the drive exerts the torque `drive_moment` (N·m) about
+    /// the stroke axis.
     #[inline(always)]
     pub fn driven(&self, y: &[R; 4], drive_moment: R) -> [R; 4] {
         let [m11, m12, m22] = self.mass;
@@ -41,11 +44,12 @@ impl<R: Real> Balance<R> {
         [y[2], y[3], stroke, pitch]
     }
 
-    /// Returns the derivative of the state `y` with a prescribed stroke. The pitch acceleration follows from the second
-    /// equation of motion.
+    /// Returns the time derivative of the state `y` if the stroke is prescribed. The pitch acceleration is
+    /// computed from the second equation of motion.
     ///
-    /// The states of the stroke follow the prescribed stroke. Integration errors in these states decay at the rate
-    /// `forgetting` (1/s), so the errors do not accumulate.
+    /// The state `y` also contains the stroke and its rate, which the integration keeps close to the
+    /// prescribed values. Integration errors in the stroke and its rate decay at the rate `forgetting` (1/s),
+    /// so the errors do not accumulate.
     #[inline(always)]
     pub fn prescribed(&self, y: &[R; 4], stroke: &Wave<R>, forgetting: R) -> [R; 4] {
         let [_, m12, m22] = self.mass;
@@ -58,23 +62,24 @@ impl<R: Real> Balance<R> {
     }
 }
 
-/// Returns the state `y`. If the stroke is prescribed, the stroke of the drive replaces the stroke in `y`.
+/// Returns the state `y`. If the stroke is prescribed, the prescribed stroke and its rate replace the stroke
+/// and its rate in `y`.
 #[inline(always)]
 pub fn state<R: Real>(drive: &Drive, wave: &Wave<R>, y: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.value, y[1], wave.rate, y[3]] } else { *y }
 }
 
-/// Returns the derivative `dy` of a state. If the stroke is prescribed, the derivatives of the drive's stroke replace
-/// the derivatives of the stroke in `dy`.
+/// Returns the time derivative `dy` of a state. If the stroke is prescribed, the derivatives of the
+/// prescribed stroke replace the derivatives of the stroke and its rate in `dy`.
 #[inline(always)]
 pub fn slope<R: Real>(drive: &Drive, wave: &Wave<R>, dy: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.rate, dy[1], wave.bend, dy[3]] } else { *dy }
 }
 
-/// Returns the initial state of a point at rest, for [`Model::start`](super::Model::start).
+/// Returns the start of a simulation from rest, as a result for [`Model::start`](super::Model::start).
 ///
-/// If the stroke is prescribed, the initial stroke is the stroke of the drive. `sizes` are typical amplitudes of stroke
-/// and pitch (rad).
+/// If the stroke is prescribed, the initial stroke is the prescribed stroke at time zero. `sizes` contains
+/// the typical sizes of stroke and pitch (rad).
 pub fn start<C>(
     drive: &Drive,
     drive_constants: &DriveConstants<f64>,
@@ -87,17 +92,18 @@ pub fn start<C>(
     Start::new(constants, y, drive_constants.period(), [stroke, pitch, stroke * rate, pitch * rate])
 }
 
-/// Returns the state, the derivative of the state and the drive of a wing with imposed stroke and pitch, for
-/// [`ExperimentModel::placed`](super::ExperimentModel::placed).
+/// Returns the state, the derivative of the state and the drive of a wing with imposed stroke and pitch, as a
+/// result for [`ExperimentModel::placed`](super::ExperimentModel::placed).
 ///
-/// `stroke` and `pitch` contain value (rad), rate (rad/s) and second derivative (rad/s²).
+/// `stroke` and `pitch` contain an angle (rad) and its first and second time derivatives (rad/s, rad/s²).
 pub fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
     ([stroke[0], pitch[0], stroke[1], pitch[1]], [stroke[1], pitch[1], stroke[2], pitch[2]], stroke.into())
 }
 
-/// Returns the error for a mass matrix that is not positive definite.
+/// Returns an error that reports a mass matrix that is not positive definite.
 ///
-/// The error message states that the first two of the `parameters` are too large relative to the last two.
+/// The error message states that the values of the first two parameters contradict the values of the last two
+/// parameters.
 pub(crate) fn inertias_apart([a, b, c, d]: &[&str; 4]) -> Invalid {
     Invalid::new(format!(
         "the mass matrix is not positive definite: the wing's inertias contradict each other ({a} and {b} against {c} and \
@@ -105,8 +111,8 @@ pub(crate) fn inertias_apart([a, b, c, d]: &[&str; 4]) -> Invalid {
     ))
 }
 
-/// Returns the state immediately after an impulse at rest that gives the stroke a rate (rad/s), for
-/// [`ExperimentModel::struck`](super::ExperimentModel::struck).
+/// Returns the state immediately after an impulse that gives a wing at rest the stroke rate `stroke_rate`
+/// (rad/s), for [`ExperimentModel::struck`](super::ExperimentModel::struck).
 ///
 /// With the mass matrix [M₁₁, M₁₂, M₂₂] (kg·m²), the impulse also causes the pitch rate `−(M₁₂/M₂₂) stroke rate`.
 pub fn struck([_, m12, m22]: [f64; 3], stroke_rate: f64) -> [f64; 4] {

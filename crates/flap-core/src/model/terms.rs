@@ -1,16 +1,17 @@
-//! Terms that the papers of the models leave out.
+//! Terms of the equations that the papers of the models leave out.
 
 use crate::body::BodyTerms;
 
-/// Terms of a model's equations that its paper leaves out: choices on which the equations branch.
+/// Terms of a model's equations that the paper of the model leaves out. The fields determine which of these
+/// terms the equations contain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Terms {
-    /// Terms of the body's motion.
+    /// Terms that describe the motion of the body.
     pub body: BodyTerms,
-    /// True with further terms of the attack angle, or with forces of the wing's sections along the normal: circulation,
-    /// rotational drag, added mass.
+    /// True if the equations contain higher harmonics of the attack angle, or additional forces along the
+    /// wing's normal. These forces are rotational circulation, rotational drag and added mass.
     pub air: bool,
-    /// True with nonlinear springs.
+    /// True if the equations contain nonlinear springs.
     pub stiffening: bool,
 }
 
@@ -18,13 +19,14 @@ impl Terms {
     /// No terms.
     pub const NONE: Terms = Terms { body: BodyTerms::None, air: false, stiffening: false };
 
-    /// Returns the terms that either point has. If both bodies move, the result has the first body's terms.
+    /// Returns all terms that `self` or `other` contains. If both contain terms of the body's motion, the
+    /// result contains the body terms of `self`.
     pub fn or(self, other: Terms) -> Terms {
         let body = if self.body == BodyTerms::None { other.body } else { self.body };
         Terms { body, air: self.air || other.air, stiffening: self.stiffening || other.stiffening }
     }
 
-    /// Returns true if the equations of motion contain none of the terms.
+    /// Returns true if the equations of motion contain none of the terms that the paper leaves out.
     #[inline(always)]
     pub fn is_plain(&self) -> bool {
         self.body != BodyTerms::All && !self.air && !self.stiffening

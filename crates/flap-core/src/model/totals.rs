@@ -1,8 +1,8 @@
-//! Time integrals and extrema of a signal, and their values for the second half of a period that mirrors the first
-//! half.
+//! Time integrals and extrema of a signal. If the second half of a period mirrors the first half, the first
+//! half determines the integrals and extrema of the second half.
 
 crate::per_lane! {
-    /// Time integrals and extrema of a signal s in a part of a drive period.
+    /// Time integrals and extrema of a signal s over a part of a drive period.
     pub struct Totals<R> {
         /// Time integral of the signal, ∫ s dt.
         pub integral: R,
@@ -22,13 +22,14 @@ crate::per_lane! {
 }
 
 impl Totals<f64> {
-    /// Returns the sums over the second half of a period, for a signal that is equal in both halves of the period.
+    /// Returns the integrals and extrema over the second half of a period, for a signal that is equal in both
+    /// halves of the period.
     pub fn repeated(self) -> Self {
         Totals { cosine: -self.cosine, sine: -self.sine, ..self }
     }
 
-    /// Returns the sums over the second half of a period, for a signal that has opposite signs in both halves of the
-    /// period.
+    /// Returns the integrals and extrema over the second half of a period, for a signal with opposite signs
+    /// in the two halves of the period.
     pub fn negated(self) -> Self {
         Totals {
             integral: -self.integral,
@@ -39,7 +40,7 @@ impl Totals<f64> {
         }
     }
 
-    /// Returns the sums over both halves of a period.
+    /// Returns the integrals and extrema over both halves of a period.
     pub(crate) fn with(self, second: Self) -> Self {
         Totals {
             integral: self.integral + second.integral,

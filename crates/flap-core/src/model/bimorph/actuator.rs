@@ -1,13 +1,14 @@
-//! The bimorph actuator as a beam: factors of Eqs. (3), (5) and (6) that depend on the shape and the layers of the
-//! actuator.
+//! The actuator of the bimorph model as a beam. The module computes the factors of Eqs. (3), (5) and (6) that
+//! depend on the shape and the layers of the actuator.
 
 use super::params::{Params, WIDTH_RATIOS};
 use crate::parameter::Invalid;
 
-/// A cantilever of two piezoelectric plates on a carbon-fibre layer, tapered in width, with a rigid extension.
+/// A beam that is clamped at its base: two piezoelectric plates on a carbon-fibre layer, with a tapered width
+/// and a rigid extension.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Actuator {
-    /// Strain of a plate's mid-plane per displacement of the tip s_ε (1/m), Eq. (5).
+    /// Strain s_ε of a plate's mid-plane per displacement of the actuator's tip (1/m), Eq. (5).
     ///
     /// ```text
     /// s_ε = (t_pzt + t_cf)/(l_pzt² (1 + 2l_r))     ε₁ = −s_ε x     ε₂ = s_ε x
@@ -15,15 +16,18 @@ pub(super) struct Actuator {
     pub(super) strain_per_tip: f64,
     /// Strain of a plate's outer face, divided by the strain of its mid-plane: (2t_pzt + t_cf)/(t_pzt + t_cf).
     pub(super) surface_strain_ratio: f64,
-    /// Stiffness of the tip (N/m) per Pa of the plates' modulus E_e, Eq. (3).
+    /// Contribution of the plates to the stiffness at the actuator's tip (N/m), divided by the modulus E_e of
+    /// the plates (Pa), Eq. (3).
     ///
     /// ```text
     /// K_pre D_E = p₄p₅ w_n G/(l_pzt³ (1 + 2l_r)) · t_pzt (1.5t_cf² + 3t_cf t_pzt + 2t_pzt²)
     /// ```
     pub(super) stiffness_per_modulus: f64,
-    /// Contribution of the carbon fibre to the stiffness of the tip (N/m), Eq. (3): K_pre E_cf t_cf³/4.
+    /// Contribution of the carbon-fibre layer to the stiffness at the actuator's tip (N/m), Eq. (3): K_pre
+    /// E_cf t_cf³/4.
     pub(super) shim_stiffness: f64,
-    /// Blocked force of a plate (N) per piezoelectric stress (Pa), without the effect of strain, Eq. (6).
+    /// Force of a plate at the actuator's tip (N), divided by the piezoelectric stress in the plate (Pa), at
+    /// zero strain, Eq. (6).
     ///
     /// ```text
     /// F_pre = ¾ p₃ G w_n t_pzt (t_pzt + t_cf)/l_pzt
@@ -32,10 +36,11 @@ pub(super) struct Actuator {
 }
 
 impl Actuator {
-    /// Returns the actuator for the parameters of a point.
+    /// Returns the actuator with the dimensions and moduli in the parameters of a point.
     ///
     /// # Errors
-    /// An error if the width ratio is not between 0 and 2: at 0 and 2, the width is zero at one end.
+    /// Returns an error if the width ratio is not between 0 and 2. At the ratios 0 and 2, the width of the
+    /// actuator is zero at one end.
     pub(super) fn new(p: &Params) -> Result<Actuator, Invalid> {
         let gain = taper_gain(p.actuator_width_ratio, p.actuator_extension_ratio)?;
         let length = p.actuator_length;
@@ -56,21 +61,23 @@ impl Actuator {
     }
 }
 
-/// Returns the gain G of a tapered cantilever with a rigid extension, Eqs. (3) and (6). The paper cites its reference 9
-/// for G.
+/// Returns the gain G of a tapered cantilever with a rigid extension, Eqs. (3) and (6). For the formula of G,
+/// the paper refers to its reference 9.
 ///
-/// `width_ratio` w_r is the width at the base, divided by the mean width. `extension_ratio` l_r is the length of the
-/// extension, divided by the length of the taper. With c = 1 + 2l_r and δ = w_r − 1, the gain is:
+/// `width_ratio` is w_r, the width of the actuator at its base divided by its mean width. `extension_ratio`
+/// is l_r, the length of the rigid extension divided by the length of the tapered part. With c = 1 + 2l_r and
+/// δ = w_r − 1, the gain is:
 ///
 /// ```text
 /// G = c / (3 I)     I = ∫₀¹ (1 + l_r − s)²/(w_r + 2 (1 − w_r) s) ds = ⅛ ∫₋₁¹ (c − z)²/(1 − δz) dz
 /// ```
 ///
-/// The rounding error of the closed form grows as 1/δ³. For |δ| ≤ ½ the integrand is therefore expanded in powers of
-/// δz.
+/// If δ is small, the closed formula for the integral I has a rounding error proportional to 1/δ³. For |δ| <
+/// ½, the function therefore expands the integrand in powers of δz.
 ///
 /// # Errors
-/// An error if the width ratio is not between 0 and 2: at 0 and 2, the width is zero at one end.
+/// Returns an error if the width ratio is not between 0 and 2. At the ratios 0 and 2, the width of the
+/// actuator is zero at one end.
 fn taper_gain(width_ratio: f64, extension_ratio: f64) -> Result<f64, Invalid> {
     Invalid::unless_within("actuator_width_ratio", width_ratio, WIDTH_RATIOS)?;
     let gain = if (width_ratio - 1.0).abs() < 0.5 {

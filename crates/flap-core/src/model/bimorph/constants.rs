@@ -1,7 +1,8 @@
-//! Constants of the bimorph model, computed once per point.
+//! Constants of the bimorph model, which flap computes once for each design point.
 //!
-//! Equation numbers refer to Jafferis, Graule and Wood (2016), with the corrections listed in `docs/models/bimorph.md`.
-//! The module also computes the products of constants that the equations of motion contain.
+//! Equation numbers refer to Jafferis, Graule and Wood (2016), with the corrections listed in
+//! `docs/models/bimorph.md`. The module also computes products of constants, so that the equations of motion
+//! need fewer multiplications.
 
 use super::actuator::Actuator;
 use super::params::{ActuatorStiffness, FieldTransition, Params};
@@ -15,59 +16,69 @@ use crate::springs::{Stiffening, structural_damping};
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Drive whose constant part and amplitude are both half of the peak-to-peak drive voltage. The two plates have
-        /// amplitudes of opposite sign.
+        /// Drive of the plates. Its constant part and its amplitude are each half of the peak-to-peak drive
+        /// voltage. The voltages of the two plates contain the waveform with opposite signs.
         pub drive: DriveConstants<R>,
-        /// Half of the bias between the plates (V). Half of the bias is added to the voltage of plate 1 and subtracted
-        /// from the voltage of plate 2.
+        /// Half of the constant voltage difference between the two plates (V). The equations add
+        /// `half_offset` to the voltage of plate 1 and subtract it from the voltage of plate 2.
         pub half_offset: R,
 
-        /// Field per voltage (1/m): 1/t_pzt.
+        /// Electric field in a plate, divided by the voltage across the plate (1/m): 1/t_pzt.
         pub field_per_volt: R,
-        /// Piezoelectric stress per field at small fields f_31,min (N/(V·m)), Eq. (6).
+        /// Piezoelectric stress f_31,min per electric field at small fields (N/(V·m)), Eq. (6).
         pub f_min: R,
-        /// Rise of the stress per field in the transition at zero field (N/(V·m)): f_31,max − f_31,min. With Eq. (6) as
-        /// printed, f_31,min is subtracted twice.
+        /// Amount by which the piezoelectric stress per field rises from small to large fields, without the
+        /// decline by a₄ (N/(V·m)): f_31,max − f_31,min. If flap uses Eq. (6) as printed, f_31,min is
+        /// subtracted twice from f_31,max.
         pub f_rise: R,
-        /// Decline of the stress per field with the field a₄ f_31,max (N/V²), Eq. (6).
+        /// Rate a₄ f_31,max at which the piezoelectric stress per field declines with the electric field
+        /// (N/V²), Eq. (6).
         pub f_decline: R,
-        /// Field of the transition ℰ₀ (V/m), Eq. (6).
+        /// Electric field ℰ₀ in the middle of the stress transition (V/m), Eq. (6).
         pub field_0: R,
-        /// Steepness of the transition a₃ (m/V), Eq. (6).
+        /// Steepness a₃ of the stress transition with respect to the electric field (m/V), Eq. (6).
         pub a_3: R,
-        /// e^p for each plate, with the exponent p = a₃ (ℰ₀ − V/t_pzt) of the transition and the constant part V of the
-        /// plate's voltage.
+        /// Value of e^p for each plate, where p = a₃ (ℰ₀ − V/t_pzt) and V is the constant part of the plate's
+        /// voltage.
         pub transition: [R; 2],
-        /// Change of the exponents p per unit of the drive's wave: γ = a₃ A/t_pzt, of opposite sign for the two plates.
+        /// Change of the exponent p if the waveform changes by 1: γ = a₃ A/t_pzt, where A is the amplitude of
+        /// the drive voltage. The change has opposite signs in the two plates.
         pub transition_swing: R,
-        /// Blocked force per piezoelectric stress F_pre (N/Pa) of each plate, Eq. (6).
+        /// Force F_pre of each plate at zero strain, divided by the piezoelectric stress in the plate (N/Pa),
+        /// Eq. (6).
         pub force_per_stress: [R; 2],
-        /// Relative change of a plate's force per displacement of the tip b = a₂ s_ε (1/m), Eqs. (5) and (6).
+        /// Relative change b = a₂ s_ε of a plate's force per displacement of the actuator's tip (1/m),
+        /// Eqs. (5) and (6).
         pub b: R,
-        /// Capacitance of a plate C_p (F).
+        /// Capacitance C_p of one plate (F).
         pub c_p: R,
-        /// Equivalent conductance of a plate's dielectric loss (S).
+        /// Conductance that represents the dielectric loss of one plate (S).
         pub conductance: R,
-        /// Share, recovered by the supply, of the power that the actuator returns.
+        /// Fraction, from 0 to 1, of the power returned by the actuator that the power supply recovers.
         pub charge_recovery: R,
 
-        /// Stiffness of the carbon fibre at the tip (N/m), Eq. (3).
+        /// Contribution of the carbon-fibre layer to the stiffness at the actuator's tip (N/m), Eq. (3).
         pub k_shim: R,
-        /// Stiffness of the plates at the tip without field and without the stiffening by strain (N/m), Eq. (3).
+        /// Contribution of the plates to the stiffness at the actuator's tip (N/m), Eq. (3), at zero electric
+        /// field and without the stiffening by strain.
         pub k_plates: R,
-        /// Force of the strain stiffening (N) per unit of L without field, Eqs. (3) and (4).
+        /// Elastic force due to the stiffening by strain at zero electric field, divided by the result L of
+        /// `rhs::stiffening` (N), Eqs. (3) and (4).
         pub f_plates: R,
-        /// Relative reduction of the plates' modulus per field (m/V).
+        /// Relative reduction of the Young's modulus of the plates per electric field (m/V).
         pub modulus_decline: R,
-        /// Stiffness of the actuator without the stiffening by strain (N/m), Eq. (3).
+        /// Stiffness of the whole actuator at its tip, without the stiffening by strain (N/m), Eq. (3).
         pub k_soft: R,
-        /// Force of the strain stiffening (N) per unit of L, Eqs. (3) and (4).
+        /// Elastic force due to the stiffening by strain, divided by the result L of `rhs::stiffening` (N),
+        /// Eqs. (3) and (4).
         pub f_stiff: R,
-        /// Strain divided by the width of the modulus transition, per displacement of the tip: a₁ s_ε (1/m), Eq. (4).
+        /// Steepness a₁ of the modulus transition, times the strain s_ε per displacement of the actuator's
+        /// tip (1/m), Eq. (4).
         pub u_per_tip: R,
-        /// Progress of the modulus transition at zero strain σ(a₁ε₀), from 0 to 1, Eq. (4).
+        /// Value σ(a₁ε₀), between 0 and 1, of the logistic function in the modulus transition at zero strain,
+        /// Eq. (4).
         pub sigma_0: R,
-        /// Stiffness of the transmission K_t (N/m).
+        /// Stiffness K_t of the transmission at the actuator's tip (N/m).
         pub k_t: R,
 
         /// Inverse 1/m_e of the effective mass m_e = (I_zz + I_am) T² + m_a (1/kg).
@@ -78,11 +89,12 @@ crate::per_lane! {
         pub tip_mass: R,
         /// Viscous damping at the actuator's tip that is equivalent to the loss factor of the stroke's springs (N·s/m).
         pub tip_damping: R,
-        /// Damping of the stroke, at the tip (N·s/m): the damping about the stroke axis times T².
+        /// Viscous damping of the stroke as an equivalent damping at the actuator's tip (N·s/m): the damping
+        /// about the stroke axis times T².
         pub stroke_damping: R,
-        /// Drag at the tip C_A (kg/m), Eq. (8).
+        /// Constant part C_A of the drag force at the actuator's tip, divided by ẋ|ẋ| (kg/m), Eq. (8).
         pub c_a: R,
-        /// Change of the drag at the tip with the pitch C_B (kg/m), Eq. (8).
+        /// Factor C_B of cos 2ψ in the drag force at the actuator's tip, divided by ẋ|ẋ| (kg/m), Eq. (8).
         pub c_b: R,
 
         /// Inverse of the moment of inertia of the wing about the hinge's axis, 1/I_xx (1/(kg·m²)).
@@ -91,68 +103,76 @@ crate::per_lane! {
         pub i_xx: R,
         /// Product of inertia I_xz of the wing (kg·m²).
         pub i_xz: R,
-        /// Inertial torque per acceleration of the tip T I_xz (kg·m), Eq. (2).
+        /// Inertial torque T I_xz about the hinge at ψ = 0, divided by the acceleration of the actuator's tip
+        /// (kg·m), Eq. (2).
         pub coupling: R,
-        /// Centrifugal torque per ẋ² sin 2ψ (kg): ½ I_xx T², Eq. (2).
+        /// Centrifugal torque about the hinge, divided by ẋ² sin 2ψ (kg): ½ I_xx T², Eq. (2).
         pub centrifugal: R,
-        /// Stiffness of the hinge κ_wh (N·m/rad).
+        /// Rotational stiffness κ_wh of the wing hinge (N·m/rad).
         pub kappa_wh: R,
-        /// Viscous damping of the hinge, including the damping equivalent to the hinge's loss factor (N·m·s).
+        /// Viscous damping of the hinge, including the damping that is equivalent to the hinge's loss factor
+        /// (N·m·s).
         pub hinge_damping: R,
-        /// Strain of the hinge per pitch angle (1/rad); zero if the dimensions of the hinge are not set.
+        /// Strain of the hinge's flexure per pitch angle (1/rad), or zero if the dimensions of the hinge are
+        /// not set.
         pub hinge_strain: R,
-        /// Rotational drag C_C (N·m·s²), Eq. (9).
+        /// Coefficient C_C of the rotational drag, whose moment has the magnitude C_C ψ̇² (N·m·s²), Eq. (9).
         pub c_c: R,
-        /// Aerodynamic torque about the hinge per coefficient and centre of pressure (kg), Eqs. (10) and (11).
+        /// Aerodynamic torque about the hinge, divided by ẋ|ẋ|, the force coefficient and the centre of
+        /// pressure in mean widths (kg), Eqs. (10) and (11).
         pub hinge_torque: R,
-        /// Chordwise centre of pressure for ψ = 90°, in mean widths, Eq. (11).
+        /// Chordwise centre of pressure at a pitch of 90°, in mean wing widths, Eq. (11).
         pub p_min: R,
-        /// Shift of the chordwise centre of pressure from ψ = 90° to ψ = 0, in mean widths, Eq. (11).
+        /// Shift of the chordwise centre of pressure if the pitch changes from 90° to 0, in mean wing widths,
+        /// Eq. (11).
         pub p_swing: R,
 
         /// Mean b₁ of the largest and the smallest drag coefficient.
         pub b_1: R,
         /// Half of the difference between the largest and the smallest drag coefficient, b₂.
         pub b_2: R,
-        /// Amplitude of the lift coefficient b_L.
+        /// Amplitude b_L of the lift coefficient.
         pub b_l: R,
         /// Force on the wing, divided by the force coefficient and ẋ² (kg/m): ½ρA_w r̂₂²R²T².
         pub force: R,
-        /// Spanwise centre of pressure R_cp (m).
+        /// Distance R_cp of the centre of pressure from the stroke axis (m).
         pub pressure_radius: R,
 
         /// Transmission ratio T (rad/m).
         pub ratio: R,
-        /// Growth of the transmission ratio with the square of the displacement: τ = T₃/T (1/m²).
+        /// Relative growth of the transmission ratio, divided by the square of the tip's displacement: τ =
+        /// T₃/T (1/m²).
         pub ratio_growth: R,
-        /// Strain of a plate's mid-plane per displacement of the tip s_ε (1/m), Eq. (5).
+        /// Strain s_ε of a plate's mid-plane per displacement of the actuator's tip (1/m), Eq. (5).
         pub strain_per_tip: R,
         /// Strain of a plate's outer face, divided by the strain of its mid-plane.
         pub surface_strain_ratio: R,
         /// Mass of the vehicle (kg).
         pub vehicle_mass: R,
-        /// Nonlinear parts of the springs.
+        /// Nonlinear terms of the springs of stroke and hinge.
         pub stiffening: Stiffening<R>,
-        /// Further terms of the force coefficients and of the centre of pressure.
+        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
         pub harmonics: Harmonics<R>,
-        /// Rotational circulation of the sections.
+        /// Rotational circulation of the wing's sections.
         pub circulation: Circulation<R>,
-        /// Normal force of the rotational drag.
+        /// Force of the rotational drag along the wing's normal.
         pub rotation: RotationalForce<R>,
-        /// Added mass of the sections, in addition to the added inertia I_am.
+        /// Added mass of the wing's sections, in addition to the added inertia I_am.
         pub added: AddedMass<R>,
-        /// Motion of the body, and the strips of the wing that move with the body.
+        /// Motion of the body, and the strips of the wing that the equations need if the body moves.
         pub moving: Moving<R>,
     }
 }
 
-/// Largest magnitude of an exponent in the equations, because the exponential function does not check its argument.
+/// Largest allowed magnitude of an exponent in the equations. The exponential function of the lanes does not
+/// check the range of its argument.
 pub(super) const EXPONENT_MAX: f64 = 600.0;
 
-/// Checks that the transitions of Eqs. (4) and (6) can be computed for plate voltages of up to `voltage_max` (V).
+/// Checks that the exponents in Eqs. (4) and (6) stay below the limit for plate voltages of up to
+/// `voltage_max` (V).
 ///
 /// # Errors
-/// Returns an error if a transition is too steep.
+/// Returns an error if the transition of the modulus or of the piezoelectric stress is too steep.
 pub(super) fn check_transitions(p: &Params, voltage_max: f64) -> Result<(), Invalid> {
     let stress = (p.stress_field.abs() + voltage_max / p.piezo_thickness) * p.stress_steepness;
     let modulus = p.modulus_steepness * p.modulus_strain;
@@ -166,10 +186,12 @@ pub(super) fn check_transitions(p: &Params, voltage_max: f64) -> Result<(), Inva
 }
 
 impl Constants<f64> {
-    /// Returns the constants of a point, with the body at rest.
+    /// Returns the constants of a design point for a body at rest.
     ///
     /// # Errors
-    /// Returns an error if the width of the actuator is zero at one end, or a constant is not finite.
+    /// Returns an error if the width of the actuator is zero at one end, or the plates have no stiffness.
+    /// Returns an error if no wing has the given radii, or the mass matrix is not positive definite at some
+    /// pitch. Returns an error if a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let actuator = Actuator::new(p)?;
         // Exponent of the modulus transition (4) at zero strain.
@@ -273,7 +295,8 @@ impl Constants<f64> {
     }
 
     /// # Errors
-    /// Returns an error if the plates have no stiffness, or the mass matrix is not positive definite at every pitch.
+    /// Returns an error if the plates have no stiffness, or the mass matrix is not positive definite at some
+    /// pitch.
     fn checked(self) -> Result<Constants<f64>, Invalid> {
         if self.softening() <= 0.0 {
             return Err(Invalid::new(
@@ -296,10 +319,11 @@ impl Constants<f64> {
         Ok(self)
     }
 
-    /// Returns the constants with another drive.
+    /// Returns a copy of the constants with the given drive.
     ///
-    /// Because the plates are in antiphase, the mean of the fields in both plates is the constant part of the drive.
-    /// The total stiffness of both plates, with the moduli E (1 − a ℰ₁) and E (1 − a ℰ₂), is therefore constant too.
+    /// The voltages of the plates vary in antiphase, so the mean of the electric fields in both plates is
+    /// constant. The moduli of the plates are E (1 − a ℰ₁) and E (1 − a ℰ₂). The sum of their stiffnesses is
+    /// therefore also constant.
     #[must_use]
     pub(super) fn with_drive(&self, drive: DriveConstants<f64>) -> Constants<f64> {
         let DriveConstants { bias, amplitude, .. } = drive;
@@ -313,7 +337,7 @@ impl Constants<f64> {
         Constants { k_soft: self.k_plates * soft + self.k_shim, f_stiff: self.f_plates * soft, ..driven }
     }
 
-    /// Returns the factor by which the mean field lowers the modulus of the plates.
+    /// Returns the modulus of the plates at the mean electric field, divided by the modulus at zero field.
     fn softening(&self) -> f64 {
         1.0 - self.modulus_decline * (self.drive.bias * self.field_per_volt)
     }

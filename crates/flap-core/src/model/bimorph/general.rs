@@ -1,13 +1,15 @@
 //! The equations of the bimorph model with the terms that the paper leaves out.
 //!
-//! The terms are motion of the body, further terms of the attack angle, forces of the sections along the normal, and
-//! nonlinear springs. If all these terms are zero, [`super::rhs`] computes the same derivatives, apart from rounding
-//! errors.
+//! The additional terms are motion of the body, higher harmonics of the attack angle, forces along the wing's
+//! normal, and nonlinear springs. If all additional terms are zero, [`super::rhs`] computes the same
+//! derivatives as this module, apart from rounding errors.
 //!
-//! The wing of the paper is lumped: the forces depend on integrals over the whole wing. Body motion changes the
-//! direction of the flow along the span, so the wing is cut into four strips ([`super::strips`]) on a moving body.
+//! In the paper, the aerodynamic forces depend only on integrals over the whole wing. On a moving body, the
+//! direction of the flow varies along the span. The model therefore divides the wing into four strips
+//! ([`super::strips`]).
 //!
-//! The functions of this module are compiled out of line, so that the terms need no computing time if they are zero.
+//! The functions of this module are not inlined into other equations. The additional terms therefore need no
+//! computing time if they are zero.
 
 use core::f64::consts::FRAC_2_PI;
 
@@ -22,12 +24,12 @@ use crate::body::{BodyTerms, Shoulder};
 use crate::model::{Instant, Load};
 use crate::num::Real;
 
-/// Motion of the wing at a state.
+/// Motion of the wing at one state of the model.
 struct Motion<R> {
     transmission: Transmission<R>,
     /// φ and φ̇.
     stroke: [R; 2],
-    /// Stroke rate φ̇, divided by the transmission ratio T; φ̇/T is ẋ in the paper.
+    /// Stroke rate divided by the transmission ratio: φ̇/T, which the paper writes as ẋ.
     rate: R,
     /// ψ and ψ̇.
     pitch: [R; 2],
@@ -57,16 +59,16 @@ impl<R: Real> Motion<R> {
     }
 }
 
-/// Load of the air on a wing.
+/// Aerodynamic force and moment on a wing.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Air<R> {
     /// Load of the air.
     pub(super) load: Load<R>,
-    /// Part of the span moment that results from the rotational drag of Eq. (9) (N·m).
+    /// Moment of the rotational drag about the span axis (N·m), Eq. (9).
     pub(super) rotation_moment: R,
 }
 
-/// Returns the load of the air without the added mass.
+/// Returns the aerodynamic force and moment on the wing, without the part of the added mass.
 #[inline(always)]
 fn air<R: Real>(c: &Constants<R>, model: &Bimorph, body_moves: bool, motion: &Motion<R>, x_dot: R) -> Air<R> {
     let Motion { stroke: [phi, phi_dot], rate, pitch, turned, shoulder, .. } = motion;
@@ -106,7 +108,7 @@ fn air<R: Real>(c: &Constants<R>, model: &Bimorph, body_moves: bool, motion: &Mo
     Air { load, rotation_moment }
 }
 
-/// Returns the load of the air at an instant, for signals and vehicles.
+/// Returns the aerodynamic force and moment on the wing at one instant, including the part of the added mass.
 #[inline(always)]
 pub(super) fn air_at<R: Real>(
     c: &Constants<R>,
@@ -142,8 +144,8 @@ fn air_with_added_mass<R: Real>(
     Air { load: found.load.with_normal(&added, motion.turned), ..found }
 }
 
-/// Returns the parts of the sections' normal acceleration that do not depend on φ̈ and ψ̈, see
-/// [`Shoulder::accelerations`].
+/// Returns the parts of the normal acceleration of the wing's sections that do not depend on φ̈ and ψ̈ (see
+/// [`Shoulder::accelerations`]).
 #[inline(always)]
 fn accelerations<R: Real>(motion: &Motion<R>) -> [R; 3] {
     let (rates, turned) = ([motion.stroke[1], motion.pitch[1]], motion.turned);
@@ -151,18 +153,20 @@ fn accelerations<R: Real>(motion: &Motion<R>) -> [R; 3] {
     [e_0, e_1 - rates[0] * rates[1] * turned[0], e_2]
 }
 
-/// Returns the derivative of the state, from Eqs. (1) and (2) with the aerodynamic moments M_D and M_s.
+/// Returns the time derivative of the state, from Eqs. (1) and (2). M_D and M_s are the aerodynamic moments
+/// about the stroke axis and the span axis.
 ///
-/// In the equations, N is the load of the added mass, and the dots stand for the stop of the hinge and the damping. The
-/// rotation of the body adds the inertial moment −g φ̇ about the hinge, see [`Shoulder::gyroscopic`].
+/// In the equations, N is the load of the added mass. The dots stand for the stop and the damping of the
+/// hinge, and the damping of the stroke is not shown. The rotation of the body adds the inertial moment −g φ̇
+/// about the hinge, see [`Shoulder::gyroscopic`].
 ///
 /// ```text
 /// m_e ẍ + (K_act(x) + K_t) x + T (M_D − N_c cos ψ + k₃ φ³) = F₁ − F₂
 /// I_xx ψ̈ + κ_wh ψ + κ₃ ψ³ + … = M_s + N_s + I_xz T ẍ cos ψ + ½ I_xx (Tẋ)² sin 2ψ − g φ̇
 /// ```
 ///
-/// Eq. (1) contains neither a reaction of the hinge nor an inertial moment. Because N contains φ̈ and ψ̈, both
-/// equations are solved together.
+/// Eq. (1) contains neither the moment that the hinge exerts on the stroke nor an inertial moment due to body
+/// rotation. Because N depends on φ̈ and ψ̈, the function solves both equations as one linear system.
 #[inline(always)]
 pub(super) fn derivative<R: Real>(
     c: &Constants<R>,

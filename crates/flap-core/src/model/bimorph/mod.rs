@@ -3,8 +3,8 @@
 //! Jafferis, Graule and Wood, "Non-linear resonance modeling and system design improvements for underactuated
 //! flapping-wing vehicles", ICRA 2016.
 //!
-//! The force and the stiffness of the two piezoelectric plates depend on electric field and strain. The model further
-//! contains a lumped mass, quasi-steady aerodynamics of the whole wing, and a passive hinge.
+//! The force and the stiffness of the two piezoelectric plates depend on electric field and strain. The model
+//! also contains a lumped mass, quasi-steady aerodynamics of the whole wing, and a passive hinge.
 
 mod actuator;
 mod constants;

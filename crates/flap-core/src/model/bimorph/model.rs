@@ -1,4 +1,4 @@
-//! The bimorph model: equations of motion, signals, columns of rows, and single motions.
+//! The bimorph model: equations of motion, signals, columns of the results, and experiments such as chirps.
 
 use core::cmp::Ordering;
 use core::f64::consts::PI;
@@ -31,7 +31,8 @@ use crate::parameter::Invalid;
 use crate::piezo::supplied;
 use crate::springs::Stiffening;
 
-/// Share of the largest lift at which a vehicle can hover. The rest is reserved for control; section IV.
+/// Fraction of the largest lift that can carry the weight of a vehicle. Section IV of the paper reserves the
+/// other 20 % of the lift for control.
 const HOVER_SHARE: f64 = 0.8;
 
 crate::signals! {
@@ -102,7 +103,8 @@ const DERIVED: &[Column] = &[
         |_, c, _| Bimorph::modes(c)[1].frequency),
 ];
 
-/// Returns the sums over the second half of a mirrored period: the plates are exchanged, and the stroke is reversed.
+/// Returns the time integrals and extrema of the signals over the second half of a symmetric period. In the
+/// second half, the plates exchange their roles, and stroke and pitch have opposite signs.
 fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
     let same = Signals::map(first, |_, totals| totals.repeated());
     Signals {
@@ -119,7 +121,7 @@ fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
     }
 }
 
-/// Number of halvings after which the voltage that balances two plates is exact to rounding.
+/// Number of bisection steps that compute the voltage difference between the plates to rounding accuracy.
 const MOST_HALVINGS: usize = 60;
 
 /// Returns the largest displacement of the actuator's tip (m).
@@ -135,7 +137,7 @@ fn tip_pp(c: &Constants<f64>, cycle: &Signals<SignalCycle>) -> f64 {
     c.tip(cycle.stroke.max) - c.tip(cycle.stroke.min)
 }
 
-/// Returns the sum over both plates of the mean positive part of the power (W).
+/// Returns the mean of the positive part of the electrical power, added up for both plates (W).
 fn positive_power(cycle: &Signals<SignalCycle>) -> f64 {
     [cycle.power_plate_1, cycle.power_plate_2].iter().map(|plate| plate.measure(Supply)).sum()
 }
@@ -145,14 +147,16 @@ fn vehicle_lift(cycle: &Signals<SignalCycle>) -> f64 {
     2e3 * grams_force(cycle.lift.mean)
 }
 
-/// Returns the power (W) that charges two plates with voltages ½V_pp (1 ± wave).
+/// Returns the mean power (W) that charges the capacitances of both plates, without recovery. The voltages of
+/// the plates are ½V_pp (1 ± wave).
 fn capacitive_power(model: &Bimorph, c: &Constants<f64>) -> f64 {
     let [low, high] = model.drive.range(&c.drive);
     let voltage_pp = c.drive.amplitude * (high - low);
     c.c_p * voltage_pp * voltage_pp * c.drive.rate / (2.0 * PI)
 }
 
-/// Returns the largest voltage (V) on a plate. The plates are at ½V_pp (1 ± wave) ∓ `offset`.
+/// Returns the largest magnitude of the voltage across either plate (V). The voltages are ½V_pp (1 − wave) +
+/// `offset` for plate 1 and ½V_pp (1 + wave) − `offset` for plate 2.
 fn voltage_max(model: &Bimorph, drive: &DriveConstants<f64>, offset: f64) -> f64 {
     let [low, high] = model.drive.range(drive);
     let bias = drive.amplitude;
@@ -165,7 +169,7 @@ fn voltage_max(model: &Bimorph, drive: &DriveConstants<f64>, offset: f64) -> f64
     plates.into_iter().map(f64::abs).fold(0.0, f64::max)
 }
 
-/// Forces of the air on the wing that are signals, and the powers lost to them.
+/// Lift and drag of the wing, and the powers that the wing loses to drag and to rotational drag.
 struct Losses<R> {
     lift: R,
     drag: R,
@@ -174,7 +178,8 @@ struct Losses<R> {
 }
 
 impl<R: Real> Losses<R> {
-    /// Returns forces and powers with the body at rest. `rate` is the stroke rate over T.
+    /// Returns lift, drag and lost powers for a body at rest. `rate` is the stroke rate divided by the
+    /// transmission ratio T.
     #[inline(always)]
     fn at_rest(c: &Constants<R>, rate: R, [sin_2psi, cos_2psi]: [R; 2], psi_dot: R) -> Losses<R> {
         let [lift, drag] = lift_and_drag(c, false, rate, [sin_2psi, cos_2psi]);
@@ -186,7 +191,7 @@ impl<R: Real> Losses<R> {
         }
     }
 
-    /// Returns forces and powers of a load.
+    /// Returns lift, drag and lost powers for the aerodynamic load `air`.
     #[inline(always)]
     fn of(c: &Constants<R>, air: &Air<R>, rate: R, psi_dot: R) -> Losses<R> {
         Losses {
@@ -202,7 +207,7 @@ impl Ode<4> for Bimorph {
     type Constants<R: Real> = Constants<R>;
     type Input<R: Real> = [Plate<R>; 2];
 
-    /// Returns the two plates at time `t` (s).
+    /// Returns voltages and forces of the two plates at time `t` (s).
     #[inline(always)]
     fn input<R: Real>(&self, c: &Constants<R>, t: R) -> [Plate<R>; 2] {
         plates(c, &self.drive.wave(&c.drive, t))
@@ -224,7 +229,7 @@ impl Ode<4> for Bimorph {
 
     const HAS_PLAIN: bool = true;
 
-    /// Returns true if the equations of motion contain no terms of `general`.
+    /// Returns true if the equations of motion need no terms of the module `general`.
     #[inline(always)]
     fn is_plain(&self) -> bool {
         self.terms.is_plain()
@@ -237,7 +242,7 @@ impl Ode<4> for Bimorph {
 }
 
 impl Bimorph {
-    /// Returns the signals at an instant, with these forces of the air.
+    /// Returns the signals at one instant, given the aerodynamic forces and lost powers `air`.
     #[inline(always)]
     fn signals_in<R: Real>(
         &self,
@@ -286,9 +291,10 @@ impl Bimorph {
     }
 }
 
-/// Returns the parameters that depend on the wing.
+/// Returns the parameters that depend on a user-defined wing.
 ///
-/// The centres of pressure follow from blade elements. The presets' values contain factors fitted to one vehicle.
+/// The lever arms `pressure_radius` and `rotation_pressure_width` are computed from blade elements. In the
+/// presets, these two lever arms contain factors that were fitted to one vehicle.
 fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
     let length = wing.offset + wing.outline.length();
     let (area, width) = (wing.area(), wing.outline.width());
@@ -347,10 +353,11 @@ impl Model<4> for Bimorph {
         Bimorph { law, terms: self.terms.or(other.terms), ..self.clone() }
     }
 
-    /// Returns a start at rest.
+    /// Returns the start of a simulation from rest.
     ///
-    /// The scales equal the scales of the direct-drive model, so tolerances and residuals are comparable. They are
-    /// 0.1 rad of stroke and 0.3 rad of pitch, and for the rates these angles times the drive's angular frequency.
+    /// The typical sizes of the states equal the typical sizes in the direct-drive model, so tolerances and
+    /// residuals are comparable. The typical sizes are 0.1 rad of stroke and 0.3 rad of pitch. The typical
+    /// sizes of the rates are these angles times the angular drive frequency.
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
@@ -363,7 +370,9 @@ impl Model<4> for Bimorph {
         Ok(Start::new(constants, [0.0; 4], constants.drive.period(), scale))
     }
 
-    /// The symmetry is about the origin. It requires equal plates with mirrored voltages, and a body at rest.
+    /// If the equations are symmetric, the second half of a period mirrors the first half about the zero
+    /// state. The symmetry requires equal plates, a symmetric waveform, a body at rest, and a centre of
+    /// pressure that is not "literal".
     fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
         let [f_1, f_2] = c.force_per_stress;
         let is_symmetric = f_1 == f_2
@@ -403,8 +412,8 @@ impl Model<4> for Bimorph {
         self.signals_in(c, at, &Losses::at_rest(c, rate, [sin_2psi, cos_2psi], psi_dot))
     }
 
-    /// ⟨V₁i₁ + V₂i₂⟩ − ⟨dielectric loss⟩ = ⟨(F₁ − F₂) ẋ⟩ = ⟨power lost to drag and damping of the stroke⟩: (1) has no
-    /// other loss.
+    /// The mean powers satisfy ⟨V₁i₁ + V₂i₂⟩ − ⟨dielectric loss⟩ = ⟨(F₁ − F₂) ẋ⟩ = ⟨power lost to drag and
+    /// damping of the stroke⟩. Eq. (1) contains no other loss.
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         let (drag, damping) = (cycle.power_drag, cycle.power_stroke_damping);
         cycle.power.balance(&[drag, damping, cycle.power_dielectric]);
@@ -425,7 +434,8 @@ impl Model<4> for Bimorph {
         load(c, false, self.centre_of_pressure, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])
     }
 
-    /// The drive crosses the transition of the force, (6), in a fraction of a step, and the currents peak there.
+    /// The drive voltage can cross the stress transition of Eq. (6) within a fraction of a step. In this
+    /// transition, the currents have peaks.
     #[inline(always)]
     fn parts(&self) -> u32 {
         if self.drive.waveform == Waveform::Shape(Shape::Square) { 6 } else { 2 }
@@ -443,21 +453,22 @@ impl ExperimentModel<4> for Bimorph {
         c.with_drive(drive)
     }
 
-    /// Returns the modes of stroke and pitch without drag. (1) contains no reaction of the hinge, so the two are
-    /// independent:
+    /// Returns the natural modes of stroke and pitch without drag. Eq. (1) contains no moment that the hinge
+    /// exerts on the stroke, so the two modes are independent:
     ///
     /// ```text
     /// ω_s = √((K_act(0) + K_t)/m_e)     ω_h = √(κ_wh/I_xx)
     /// ```
     ///
-    /// Added mass of the sections adds a₁₁ T² to m_e and a₂₂ to I_xx. It also couples both motions, by the product e of
-    /// the off-diagonal entries of the mass matrix, divided by the product of its diagonal:
+    /// The added mass of the wing's sections adds a₁₁ T² to m_e and a₂₂ to I_xx. The added mass also couples
+    /// stroke and pitch. The coupling e is the product of the off-diagonal entries of the mass matrix,
+    /// divided by the product of the diagonal entries:
     ///
     /// ```text
     /// (1 − e) ω⁴ − (ω_s² + ω_h²) ω² + ω_s² ω_h² = 0     e = a₁₂ (I_xz + a₁₂) T²/((m_e + a₁₁ T²)(I_xx + a₂₂))
     /// ```
     ///
-    /// Without real solutions, the frequencies are NaN.
+    /// If the equation for ω has no real solutions, the frequencies are NaN.
     fn modes(c: &Constants<f64>) -> Vec<Mode> {
         let stiffness = secant_stiffness(c, 0.0) + c.k_t;
         let squared_ratio = c.ratio * c.ratio;
@@ -476,8 +487,8 @@ impl ExperimentModel<4> for Bimorph {
         Mode::of(["mode_stroke", "mode_hinge"], squares.map(|square| square.sqrt() / (2.0 * PI)))
     }
 
-    /// Returns the constants with ½V_pp on both plates. If the plates differ, a difference of the voltages balances
-    /// their forces.
+    /// Returns the constants for a constant voltage of ½V_pp on both plates. If the plates have different
+    /// forces at equal voltages, a voltage difference between the plates balances the forces.
     fn resting(c: &Constants<f64>) -> Constants<f64> {
         let still = c.drive.still(c.drive.bias);
         let with_half = |half_offset: f64| Constants { half_offset, ..*c }.with_drive(still);
@@ -496,7 +507,8 @@ impl ExperimentModel<4> for Bimorph {
         with_half(f64::midpoint(low, high))
     }
 
-    /// Returns the state with ψ̇ = (I_xz + a₁₂) T ẋ/(I_xx + a₂₂), from (2) and the added mass of the sections.
+    /// Returns the state after an impulse on the stroke, which causes the pitch rate ψ̇ = (I_xz + a₁₂) T
+    /// ẋ/(I_xx + a₂₂). The pitch rate follows from Eq. (2) with the added mass of the wing's sections.
     fn struck(c: &Constants<f64>, stroke_rate: f64) -> [f64; 4] {
         let tip_rate = stroke_rate / c.ratio;
         [0.0, tip_rate, 0.0, (c.i_xz + c.added.a12) * stroke_rate / (c.i_xx + c.added.a22)]

@@ -10,14 +10,16 @@ use crate::piezo::ElectricalParameters;
 use crate::springs::{FLEXURE, HingeParameters};
 
 crate::parameters! {
-    /// Parameters of the bimorph model, in SI units. Symbols as in Jafferis, Graule and Wood 2016, Table I.
+    /// Parameters of the bimorph model, in SI units. The symbols are taken from Table I of Jafferis, Graule
+    /// and Wood (2016).
     pub struct Params {
         ["drive"]
-        /// Peak-to-peak drive voltage. If drive_offset is 0, the voltages of both plates lie between 0 and
-        /// drive_voltage_pp, in antiphase, Eq. (7). If drive_shape is "harmonics", drive_voltage_pp is the peak-to-peak
-        /// voltage of the fundamental alone.
+        /// Peak-to-peak drive voltage. If drive_offset is 0, the voltages of the two plates vary in antiphase
+        /// between 0 and drive_voltage_pp, Eq. (7). If drive_shape is "harmonics", drive_voltage_pp is the
+        /// peak-to-peak voltage of the first harmonic alone.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)) 200.0,
-        /// Drive frequency. Jafferis et al. (2016) sweep the drive frequency at 15 Hz/s.
+        /// Drive frequency. In the experiments of Jafferis et al. (2016), the drive frequency changes at a
+        /// rate of 15 Hz/s.
         drive_frequency: f64 = ("Hz", "f", Number(Positive)) 120.0,
         /// Parameters of the waveform.
         waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
@@ -28,14 +30,15 @@ crate::parameters! {
         ["transmission"]
         /// Transmission ratio: stroke angle per displacement of the actuator's tip.
         transmission_ratio: f64 = ("rad/m", "T", Number(Positive)) 3333.0,
-        /// Stiffness T^2 kappa_t of the transmission at the actuator's tip, with the transmission ratio T and the
-        /// rotational stiffness kappa_t.
+        /// Stiffness T^2 kappa_t of the transmission at the actuator's tip, where T is the transmission ratio
+        /// and kappa_t is the rotational stiffness.
         transmission_stiffness: f64 = ("N/m", "K_t", Number(NonNegative), is_fitted: true, scales_with: &[("transmission_ratio", 2.0)]) 197.7,
         /// Coefficient T_3 of the transmission ratio T + T_3 x^2, where x is the displacement of the actuator's tip.
         /// Jafferis et al. (2016) do not use transmission_growth.
         transmission_growth: f64 = ("rad/m^3", "T_3", Number(Any), default: 0.0) 0.0,
-        /// Cubic stiffness of the stroke: the transmission adds a moment of stroke_stiffening times the third power of
-        /// the stroke, against the stroke. Jafferis et al. (2016) do not use stroke_stiffening.
+        /// Cubic stiffness of the stroke. The transmission exerts an additional moment against the stroke:
+        /// stroke_stiffening times the third power of the stroke angle. Jafferis et al. (2016) do not use
+        /// stroke_stiffening.
         stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
         /// Viscous damping of the stroke about the stroke axis. Jafferis et al. (2016) do not use stroke_damping.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
@@ -50,9 +53,10 @@ crate::parameters! {
         wing_area: f64 = ("m^2", "A_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 54.59e-6,
         /// Radius of the second moment of the wing area about the stroke axis, divided by wing_length.
         wing_radius_2: f64 = ("", "r_2", Number(Positive)) 0.564,
-        /// Radius of the first moment of the wing area about the stroke axis, divided by wing_length. The radius
-        /// determines the chord along the span for body motion, circulation_factor, rotation_force_factor and
-        /// added_mass_factor. Jafferis et al. (2016) do not use wing_radius_1.
+        /// Radius of the first moment of the wing area about the stroke axis, divided by wing_length. With
+        /// wing_radius_1, flap computes the chord along the span. Only body motion, circulation_factor,
+        /// rotation_force_factor and added_mass_factor need this chord. Jafferis et al. (2016) do not use
+        /// wing_radius_1.
         wing_radius_1: Option<f64> = ("", "r_1", Following(Positive, "(wing_radius_2 / 0.929)^(1 / 0.732), from Ellington (1984)")) None,
         /// Wing width: largest distance between the hinge's axis and a point of the wing.
         wing_width: f64 = ("m", "W", Number(Positive), scales_with: &[("wing_length", 1.0)]) 4.5e-3,
@@ -91,24 +95,25 @@ crate::parameters! {
         rotation_pressure_width: f64 = ("m", "W_cp1", Number(NonNegative), is_fitted: true, scales_with: &[("wing_length", 1.0)]) 0.39 * 1.93e-3,
         /// Chordwise centre of pressure at an attack angle of 0, as a fraction of the mean wing width A_w/R, Eq. (11).
         pressure_min: f64 = ("", "p_min", Number(Any), is_fitted: true) 0.132,
-        /// Chordwise centre of pressure at an attack angle of 90 deg, as a fraction of the mean wing width A_w/R, Eq.
-        /// (11).
+        /// Chordwise centre of pressure at an attack angle of 90 deg, as a fraction of the mean wing width
+        /// A_w/R, Eq. (11).
         pressure_max: f64 = ("", "p_max", Number(Any), is_fitted: true) 0.151,
-        /// Further terms of the force coefficients and of the centre of pressure.
+        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
-        /// Factor that multiplies the rotational circulation of potential flow. With a factor of 1, the circulation
-        /// follows the theory of Kramer (1932) and Sane and Dickinson (2002). Jafferis et al. (2016) do not use
-        /// circulation_factor.
+        /// Factor that multiplies the rotational circulation of potential flow. With circulation_factor = 1,
+        /// the circulation follows the theory of Kramer (1932) and Sane and Dickinson (2002). Jafferis et
+        /// al. (2016) do not use circulation_factor.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Factor that multiplies the normal force of the rotational drag. With a factor of 1, the normal force is
-        /// consistent with the moment of Eq. (9). Jafferis et al. (2016) do not use rotation_force_factor.
+        /// Factor that multiplies the force of the rotational drag along the wing's normal. With
+        /// rotation_force_factor = 1, this force is consistent with the moment of the rotational drag in
+        /// Eq. (9). Jafferis et al. (2016) do not use rotation_force_factor.
         rotation_force_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Factor that multiplies the added mass of the wing's sections, which acts on stroke and pitch. With a factor
-        /// of 1, the added mass is the added mass of a plate in potential flow. Jafferis et al. (2016) use only
-        /// added_inertia_stroke.
+        /// Factor that multiplies the added mass of the wing's sections. This added mass acts on stroke and
+        /// pitch. With added_mass_factor = 1, each section has the added mass of a flat plate in potential
+        /// flow. Jafferis et al. (2016) do not use added_mass_factor, only added_inertia_stroke.
         added_mass_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Distance of the hinge's axis from the leading edge, in chords. The distance affects only circulation_factor,
-        /// rotation_force_factor and added_mass_factor.
+        /// Distance of the hinge's axis from the leading edge, in chords. axis_position has no effect if
+        /// circulation_factor, rotation_force_factor and added_mass_factor are all zero.
         axis_position: f64 = ("", "x_0", Number(Any), default: 0.0) 0.0,
 
         ["actuator"]
@@ -120,8 +125,8 @@ crate::parameters! {
         actuator_width_ratio: f64 = ("", "w_r", Number(WIDTH_RATIOS)) 1.556,
         /// Length of the actuator's rigid extension, divided by actuator_length.
         actuator_extension_ratio: f64 = ("", "l_r", Number(NonNegative)) 0.25,
-        /// Mass of the actuator, as a point mass at the actuator's tip. The equations of Jafferis et al. (2016) leave
-        /// out this mass, which is about 7 mg.
+        /// Mass of the actuator, as a point mass at the actuator's tip. The equations of Jafferis et
+        /// al. (2016) leave out the mass of the actuator, which is about 7 mg.
         actuator_mass: f64 = ("kg", "", Number(NonNegative)) 0.0,
         /// Thickness of each piezoelectric plate.
         piezo_thickness: f64 = ("m", "t_pzt", Number(Positive)) 135e-6,
@@ -133,15 +138,15 @@ crate::parameters! {
         piezo_modulus_min: f64 = ("Pa", "E_min", Number(Positive)) 38.5e9,
         /// Young's modulus of the piezoelectric plates under large compression, Eq. (4).
         piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)) 81e9,
-        /// Relative reduction of the modulus of the piezoelectric plates per electric field. The reduction depends on
-        /// the mean of the fields in both plates, which is constant over a period. Jafferis et al. (2016) do not use
-        /// modulus_decline.
+        /// Relative reduction of the Young's modulus of the piezoelectric plates per electric field. The
+        /// reduction is proportional to the mean of the electric fields in the two plates. This mean field is
+        /// constant over a period. Jafferis et al. (2016) do not use modulus_decline.
         modulus_decline: f64 = ("m/V", "", Number(Any), default: 0.0) 0.0,
         /// Strain in the middle of the transition between piezo_modulus_min and piezo_modulus_max, Eq. (4). A strain is
         /// negative in compression.
         modulus_strain: f64 = ("", "eps_0", Number(Any)) -0.047e-2,
-        /// Steepness, with respect to strain, of the transition between piezo_modulus_min and piezo_modulus_max, Eq.
-        /// (4).
+        /// Steepness, with respect to strain, of the transition between piezo_modulus_min and
+        /// piezo_modulus_max, Eq. (4).
         modulus_steepness: f64 = ("", "a_1", Number(Positive)) 8000.0,
         /// Piezoelectric stress per electric field at small fields, Eq. (6).
         piezo_stress_min: f64 = ("N/(V*m)", "f_31,min", Number(NonNegative)) 14.0,
@@ -156,14 +161,15 @@ crate::parameters! {
         stress_decline: f64 = ("m/V", "a_4", Number(Any)) 69e-9,
         /// Relative change of the force of a piezoelectric plate per strain, Eq. (6).
         force_strain_slope: f64 = ("", "a_2", Number(Any)) -230.0,
-        /// Factor that multiplies the force of the piezoelectric plates. The factor describes losses in the attachment
-        /// of the actuator. A factor of 1 means no loss.
+        /// Factor that multiplies the force of the piezoelectric plates. The factor describes losses where
+        /// the actuator is attached to the robot. A factor of 1 means no loss.
         force_factor: f64 = ("", "p_3", Number(Positive), is_fitted: true) 0.7,
-        /// Factor that multiplies the stiffness of the actuator. The factor describes losses in the attachment of the
-        /// actuator. A factor of 1 means no loss.
+        /// Factor that multiplies the stiffness of the actuator. The factor describes losses where the
+        /// actuator is attached to the robot. A factor of 1 means no loss.
         stiffness_factor: f64 = ("", "p_4", Number(Positive), is_fitted: true) 0.79,
-        /// Second factor that multiplies the stiffness of the actuator. The factor adjusts the computed free deflection
-        /// of the actuator to the measured deflection. A factor of 1 means no correction.
+        /// Second factor that multiplies the stiffness of the actuator. deflection_factor adjusts the
+        /// computed free deflection of the actuator to the measured free deflection. A factor of 1 means no
+        /// correction.
         deflection_factor: f64 = ("", "p_5", Number(Positive), is_fitted: true) 0.8,
         /// Force of plate 2, divided by the force of plate 1 at the same voltage. Jafferis et al. (2016) do not use
         /// plate_ratio.
@@ -174,49 +180,52 @@ crate::parameters! {
         body: BodyParameters = (flatten) BodyParameters::REST,
 
         ["vehicle"]
-        /// Total capacitance of the two actuators of a vehicle, which have four plates.
+        /// Total capacitance of the four plates in the two actuators of a vehicle.
         vehicle_capacitance: f64 = ("F", "C_act", Number(NonNegative)) 10.1e-9,
-        /// Mass of the vehicle with its two actuators and two wings, Table II. To compute the column payload_mg, flap
-        /// subtracts vehicle_mass from the usable lift.
+        /// Mass of the vehicle with its two actuators and two wings, Table II. To compute the column
+        /// payload_mg, flap subtracts vehicle_mass from 80 % of the vehicle's lift.
         vehicle_mass: f64 = ("kg", "M_f", Number(NonNegative)) 80e-6,
 
         ["readings of the paper"]
-        /// Transition of the piezoelectric stress with the electric field, Eq. (6): corrected ("corrected"), or as
-        /// printed ("printed"). Eq. (6) as printed halves the force of the plates.
+        /// Form of Eq. (6), in which the piezoelectric stress depends on the electric field: corrected
+        /// ("corrected"), or as printed ("printed"). With "printed", the force of the plates at large fields
+        /// is about half of the force with "corrected".
         field_transition: FieldTransition = ("", "", Choice(FieldTransition::NAMES)) FieldTransition::Corrected,
-        /// Attack angle that determines the chordwise centre of pressure, Eq. (11): folded to at most 90 deg
-        /// ("folded"), relative to the motion ("directional"), or as printed ("literal"). Eq. (11) as printed breaks
-        /// the mirror symmetry of the two half strokes.
+        /// Attack angle that determines the chordwise centre of pressure, Eq. (11): at most 90 deg
+        /// ("folded"), relative to the motion ("directional"), or as printed ("literal"). With Eq. (11) as
+        /// printed, the two half strokes are not mirror images of each other.
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Folded,
         /// Stiffness of the actuator: dependent on the strain, Eq. (4) ("strain-dependent"), or constant ("constant").
         /// The constant stiffness is the stiffness at zero strain.
         actuator_stiffness: ActuatorStiffness = ("", "", Choice(ActuatorStiffness::NAMES)) ActuatorStiffness::StrainDependent,
     }
 
-    /// Returns the parameters of Table I of the paper, at 200 V and at the frequency of the largest stroke. The values
-    /// of fitted parameters are products of two factors, as printed in the table.
+    /// Returns the parameters in Table I of the paper, at 200 V and at the frequency of the largest stroke.
+    /// Table I prints each fitted value as a product of two factors.
     pub fn jafferis2016() -> Params;
 }
 
 crate::choice! {
-    /// Interpretations of Eq. (6): the term that is multiplied by the exponential of the field.
+    /// Interpretations of Eq. (6), which gives the piezoelectric stress per electric field.
     pub enum FieldTransition {
-        /// f_min + (f_max (1 − a₄ℰ) − f_min) σ: the stress rises from f_min to f_max, as the text of the paper
-        /// describes.
+        /// The stress per field is f_min + (f_max (1 − a₄ℰ) − f_min) σ. It rises from f_min to f_max, as the
+        /// text of the paper describes.
         Corrected = "corrected",
-        /// (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ): the stress as printed, which never approaches f_max.
+        /// The stress per field is (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ), as printed. It never
+        /// approaches f_max.
         Printed = "printed",
     }
 }
 
 crate::choice! {
-    /// Interpretations of Eq. (11): the pitch on which the centre of pressure depends.
+    /// Interpretations of Eq. (11), which differ in the angle on which the centre of pressure depends.
     pub enum CentreOfPressure {
         /// |ψ|: the attack angle is never above 90°.
         Folded = "folded",
-        /// ψ sign(ẋ): the attack angle is relative to the motion.
+        /// ψ sign(ẋ): the attack angle is measured from the direction of motion.
         Directional = "directional",
-        /// ψ: the pitch as printed, which breaks the mirror symmetry of the two half strokes.
+        /// ψ: the angle as printed in the paper. The two half strokes are then not mirror images of each
+        /// other.
         Literal = "literal",
     }
 }
@@ -231,11 +240,12 @@ crate::choice! {
     }
 }
 
-/// Range of `width_ratio` in which the actuator has a positive width at both ends.
+/// Range of `actuator_width_ratio` in which the actuator has a positive width at both ends.
 pub(super) const WIDTH_RATIOS: Range = Range::Between(0.0, 2.0);
 
 impl Params {
-    /// Returns true if the equations contain forces of the wing's sections along the normal.
+    /// Returns true if the equations contain additional forces along the wing's normal: rotational
+    /// circulation, rotational drag or added mass.
     pub(super) fn has_sections(&self) -> bool {
         [self.circulation_factor, self.rotation_force_factor, self.added_mass_factor]
             .iter()
@@ -256,8 +266,8 @@ impl Params {
         },
     ];
 
-    /// Returns the redesign of section III-B of the paper: transmission and hinge of Table II, all other parameters as
-    /// in Table I.
+    /// Returns the parameters of the redesigned vehicle in section III-B of the paper. Drive frequency,
+    /// transmission, hinge and vehicle mass differ from Table I.
     pub fn jafferis2016_improved() -> Params {
         Params {
             drive_frequency: 155.0,
@@ -284,7 +294,7 @@ impl Params {
     /// T ∝ r     κ_t ∝ r^−2.14, so K_t = T² κ_t ∝ r^−0.14     κ_wh ∝ r^−1.47
     /// ```
     ///
-    /// Figure 5 of the paper shows r = 0.8 (T₂) and r = 0.6 (T₃).
+    /// Figure 5 of the paper shows response curves for r = 0.8 (named T₂) and r = 0.6 (named T₃).
     #[must_use]
     pub fn with_transmission_scaled(self, ratio: f64) -> Params {
         Params {

@@ -1,11 +1,11 @@
-//! Equations of motion and outputs of the bimorph model.
+//! Equations of motion, forces and currents of the bimorph model.
 //!
 //! Equation numbers refer to Jafferis, Graule and Wood (2016), with the corrections listed in `docs/models/bimorph.md`.
 //!
-//! The state is `[x, ẋ, ψ, ψ̇]`: displacement of the actuator's tip (m) and pitch (rad), each with its rate. The stroke
-//! is T x. The pitch ψ is zero if the wing is perpendicular to its motion. At ẋ > 0, the pitch is positive if the
-//! trailing edge lags behind the leading edge. Lift is positive upwards. The equations describe one actuator and one
-//! wing.
+//! The state is `[x, ẋ, ψ, ψ̇]`: displacement of the actuator's tip (m) and pitch (rad), each with its rate.
+//! The stroke angle is T x, with the transmission ratio T. The pitch ψ is zero if the chord of the wing is
+//! perpendicular to the motion of the wing. If ẋ > 0 and the trailing edge lags behind the leading edge, the
+//! pitch is positive. Lift is positive upwards. The equations describe one actuator and one wing.
 
 use core::f64::consts::{FRAC_2_PI, PI};
 
@@ -16,13 +16,13 @@ use crate::drive::{DriveConstants, Wave};
 use crate::model::Load;
 use crate::num::Real;
 
-/// A piezoelectric plate at a voltage, with the force g at zero strain, and the derivatives of g with respect to the
-/// voltage.
+/// Voltage across a piezoelectric plate, the force g of the plate at zero strain, and the derivatives of g
+/// with respect to the voltage.
 #[derive(Clone, Copy, Debug)]
 pub struct Plate<R> {
-    /// Voltage across the plate and its rate.
+    /// Voltage across the plate (V), and the time derivative of the voltage (V/s).
     pub voltage: Wave<R>,
-    /// Force at zero strain g (N), Eq. (6).
+    /// Force g of the plate at zero strain (N), Eq. (6).
     pub force: R,
     /// dg/dV (N/V).
     pub force_per_volt: R,
@@ -30,14 +30,15 @@ pub struct Plate<R> {
     pub force_bend: R,
 }
 
-/// Returns the two plates at a value `wave` of the waveform, in antiphase, Eq. (7).
+/// Returns the two plates if the waveform has the value `wave`. The voltages of the plates are in antiphase,
+/// Eq. (7).
 ///
 /// ```text
 /// V₁ = ½V_pp (1 − wave)     V₂ = ½V_pp (1 + wave)
 /// ```
 ///
-/// Half of the bias between the plates is added to V₁ and subtracted from V₂. The ratio of the forces of both plates is
-/// a constant in `c`.
+/// In addition, half of the parameter `drive_offset` is added to V₁ and subtracted from V₂. The plates can
+/// have different forces at the same voltage, so `c` contains one force constant for each plate.
 #[inline(always)]
 pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
     let DriveConstants { bias, amplitude, .. } = c.drive;
@@ -47,7 +48,8 @@ pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
     [plate(c, f_1, wave.scaled(first, -amplitude), s_1), plate(c, f_2, wave.scaled(second, amplitude), s_2)]
 }
 
-/// Returns the progress of the transition S = σ(a₃ (ℰ − ℰ₀)) in each plate, Eq. (6).
+/// Returns the progress S = σ(a₃ (ℰ − ℰ₀)) of the stress transition in each plate, Eq. (6). S rises from 0 at
+/// small fields to 1 at large fields.
 ///
 /// The time-dependent parts of the two fields have opposite signs, so both plates together need only one exponential
 /// and one division.
@@ -56,8 +58,9 @@ pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
 /// S₁ = 1/(1 + e^(p₁ + γ wave))     S₂ = 1/(1 + e^(p₂ − γ wave))
 /// ```
 ///
-/// `check_transitions` limits the exponents to `EXPONENT_MAX`. The product of both denominators therefore overflows
-/// only if both S₁ and S₂ are below 1e-47. In this case both results are zero.
+/// `check_transitions` limits the exponents to `EXPONENT_MAX`. The product of the two denominators in S₁ and
+/// S₂ therefore overflows only if both S₁ and S₂ are below 1e-47. If this product overflows, the function
+/// returns zero for S₁ and S₂.
 #[inline(always)]
 fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
     let [e_1, e_2] = c.transition;
@@ -67,8 +70,8 @@ fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
     [second * both, first * power * both]
 }
 
-/// Returns a plate with its force at zero strain, Eq. (6), and the derivatives of the force that the current contains.
-/// `s` is the progress of the transition.
+/// Returns a plate with its force at zero strain, Eq. (6), and with the derivatives of this force, on which
+/// the current depends. `s` is the progress of the stress transition, from 0 to 1.
 ///
 /// ```text
 /// g = F_pre ℰ f₃₁(ℰ)     f₃₁ = f_min + A S     A = f_max (1 − a₄ℰ) − f_min
@@ -96,7 +99,8 @@ fn plate<R: Real>(c: &Constants<R>, force_per_stress: R, voltage: Wave<R>, s: R)
     }
 }
 
-/// Returns the forces F₁ and F₂ (N) of the two plates at a displacement of the tip, Eqs. (5) and (6).
+/// Returns the forces F₁ and F₂ (N) of the two plates at the displacement `x` of the actuator's tip, Eqs. (5)
+/// and (6).
 ///
 /// ```text
 /// F₁ = g(V₁) (1 − b x)     F₂ = g(V₂) (1 + b x)     b = a₂ s_ε
@@ -107,13 +111,15 @@ pub(super) fn plate_forces<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x:
     [plates[0].force - plates[0].force * change, plates[1].force + plates[1].force * change]
 }
 
-/// Returns the stiffening of the compressed plate, Eq. (4): L = ln((1 + e^(z₀+u))/(1 + e^z₀)) with u = a₁ s_ε |x|.
+/// Returns the number L that describes the stiffening of the compressed plate, Eq. (4): L = ln((1 +
+/// e^(z₀+u))/(1 + e^z₀)) with u = a₁ s_ε |x|.
 ///
 /// ```text
 /// L = ln(1 + σ₀ (eᵘ − 1))     σ₀ = σ(z₀)     z₀ = a₁ε₀
 /// ```
 ///
-/// The result is accurate to rounding for any x: L ≈ σ₀ u for small u, and u + ln σ₀ for large u.
+/// For every u, the relative error of L is only a rounding error. L approaches σ₀ u for small u, and u + ln
+/// σ₀ for large u.
 #[inline(always)]
 pub(super) fn stiffening<R: Real>(c: &Constants<R>, x: R) -> R {
     let u = c.u_per_tip * x.abs();
@@ -124,7 +130,8 @@ pub(super) fn stiffening<R: Real>(c: &Constants<R>, x: R) -> R {
 
 /// Returns the actuator's elastic force K_act(x) x (N), Eqs. (3) and (4).
 ///
-/// K_act is a secant stiffness that contains L/u. The product of K_act and x contains no division by the strain.
+/// K_act is a secant stiffness and contains the quotient L/u. The function computes the product K_act x
+/// without a division, so the result is also valid at x = 0.
 ///
 /// ```text
 /// K_act = K_pre (E_e D_E + E_cf t_cf³/4)     E_e = E_min + ½ (E_max − E_min) L/u
@@ -134,16 +141,19 @@ pub(super) fn elastic_force<R: Real>(c: &Constants<R>, x: R) -> R {
     c.k_soft * x + c.f_stiff * stiffening(c, x).copysign(x)
 }
 
-/// Returns the actuator's secant stiffness K_act (N/m), Eq. (3), which at x = 0 is the limit of K_act.
+/// Returns the actuator's secant stiffness K_act (N/m), Eq. (3). At x = 0, the result is the limit of K_act
+/// for x → 0.
 #[inline(always)]
 pub fn secant_stiffness<R: Real>(c: &Constants<R>, x: R) -> R {
     let x = x.abs().max(x.lit(1e-100));
     elastic_force(c, x) / x
 }
 
-/// Returns the lift coefficient of the wing divided by sin 2ψ, b_L, and the drag coefficient, b₁ + b₂ cos 2ψ.
+/// Returns two numbers: the lift coefficient of the wing divided by sin 2ψ, which is b_L, and the drag
+/// coefficient b₁ + b₂ cos 2ψ.
 ///
-/// If `harmonics` is true, both coefficients contain the further terms of the attack angle 90° − ψ.
+/// If `harmonics` is true, both coefficients also contain the terms of `aero::Harmonics` at the attack angle
+/// 90° − ψ.
 #[inline(always)]
 fn coefficients<R: Real>(c: &Constants<R>, harmonics: bool, cos_2psi: R) -> [R; 2] {
     let (lift, drag) = (c.b_l, c.b_1 + c.b_2 * cos_2psi);
@@ -160,7 +170,8 @@ pub(super) fn tip_drag<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
     c.c_a + c.c_b * cos_2psi
 }
 
-/// Returns the angle ψ̃ on which the centre of pressure depends in the given `reading` of Eq. (11).
+/// Returns the angle ψ̃ on which the centre of pressure depends, for the interpretation `reading` of Eq.
+/// (11).
 #[inline(always)]
 pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
     match reading {
@@ -170,15 +181,16 @@ pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
     }
 }
 
-/// Returns the aerodynamic torque about the hinge, divided by ẋ|ẋ|: C_D (kg), Eqs. (10) and (11). The centre of
-/// pressure depends on the [`tilt`] ψ̃.
+/// Returns C_D, the aerodynamic torque about the hinge divided by ẋ|ẋ| (kg), Eqs. (10) and (11). The centre
+/// of pressure depends on the angle ψ̃, which the function [`tilt`] computes.
 ///
 /// ```text
 /// C_D = ½ρA_w r̂₂²T²R² W_cp2 ((b₁ + b₂ cos 2ψ) cos ψ + b_L sin 2ψ sin ψ)
 /// W_cp2 = A_w/R (p_min + (p_max − p_min) |1 − 2/π ψ̃|)
 /// ```
 ///
-/// With `harmonics`, the coefficients and W_cp2 contain the further terms of the attack angle |90° − ψ̃|.
+/// If `harmonics` is true, the force coefficients and W_cp2 also contain the terms of `aero::Harmonics`. For
+/// W_cp2, these terms depend on the attack angle |90° − ψ̃|.
 #[inline(always)]
 pub(super) fn hinge_drag<R: Real>(c: &Constants<R>, harmonics: bool, tilt: R, sin: R, cos: R) -> R {
     let (sin_2psi, cos_2psi) = double_angle(sin, cos);
@@ -195,15 +207,16 @@ pub(super) fn double_angle<R: Real>(sin: R, cos: R) -> (R, R) {
     (sin * cos * 2.0, cos * cos * 2.0 - 1.0)
 }
 
-/// Returns the derivative of the state `[ẋ, ẍ, ψ̇, ψ̈]`, Eqs. (1) and (2).
+/// Returns the time derivative `[ẋ, ẍ, ψ̇, ψ̈]` of the state, Eqs. (1) and (2).
 ///
 /// ```text
 /// m_e ẍ + (K_act(x) + K_t) x + (C_A + C_B cos 2ψ) |ẋ| ẋ = F₁ − F₂
 /// I_xx ψ̈ + κ_wh ψ + C_C |ψ̇| ψ̇ = C_D ẋ|ẋ| + I_xz T ẍ cos ψ + ½ I_xx (Tẋ)² sin 2ψ
 /// ```
 ///
-/// In addition to the paper, the equations contain damping of stroke and hinge (zero by default), and a
-/// [`Transmission`] whose ratio grows. If the ratio grows, T ẋ stands for φ̇, and T ẍ for φ̈.
+/// The code contains two terms that the paper leaves out: damping of stroke and hinge, and a [`Transmission`]
+/// ratio that grows with the displacement. Both terms are zero by default. If the transmission ratio grows, T
+/// ẋ stands for φ̇ in these equations, and T ẍ stands for φ̈.
 #[inline(always)]
 pub(super) fn derivative<R: Real>(
     c: &Constants<R>,
@@ -246,17 +259,18 @@ pub(super) fn stroke_damping<R: Real>(
     c.tip_damping * x_dot + transmission.times(c.stroke_damping * rate)
 }
 
-/// Returns lift and drag of the wing (N). `rate` is the stroke rate φ̇ divided by the transmission ratio T; φ̇/T is ẋ
-/// in the paper.
+/// Returns lift and drag of the wing (N). `rate` is φ̇/T, the stroke rate divided by the transmission ratio,
+/// which the paper writes as ẋ.
 ///
-/// The paper contains no equations for lift and drag. Eqs. (8) and (10) imply this form:
+/// The paper contains no equations for lift and drag. Eqs. (8) and (10) of the paper imply the following
+/// equations for lift and drag:
 ///
 /// ```text
 /// L = ½ρA_w r̂₂²R²T² ẋ|ẋ| b_L sin 2ψ     D = ½ρA_w r̂₂²R²T² ẋ|ẋ| (b₁ + b₂ cos 2ψ)
 /// ```
 ///
-/// Drag opposes the stroke. The power of the drag, R_cp T ẋ D, is the power that the actuator loses to the air. If
-/// `harmonics` is true, the coefficients contain the further terms of the attack angle, as in [`hinge_drag`].
+/// Drag opposes the stroke. The power of the drag, R_cp T ẋ D, is the power that the actuator loses to the
+/// air. If `harmonics` is true, the coefficients also contain the terms of `aero::Harmonics`.
 #[inline(always)]
 pub(super) fn lift_and_drag<R: Real>(
     c: &Constants<R>,
@@ -269,8 +283,8 @@ pub(super) fn lift_and_drag<R: Real>(
     [force * lift * sin_2psi, force * drag]
 }
 
-/// Returns the load of the air on the wing at a stroke. Lift and drag act at the distance R_cp from the stroke axis.
-/// [`lift_and_drag`] explains `rate`.
+/// Returns the aerodynamic force and moment on the wing at the stroke angle `stroke` (rad). Lift and drag act
+/// at the distance R_cp from the stroke axis. The documentation of [`lift_and_drag`] defines `rate`.
 ///
 /// ```text
 /// M_L = R_cp L     M_D = R_cp D     M_s = C_D ẋ|ẋ| − C_C |ψ̇| ψ̇
@@ -308,8 +322,9 @@ pub(super) fn charging_power<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2]) 
     c.c_p * (v_1.value * v_1.rate + v_2.value * v_2.rate)
 }
 
-/// Returns the currents into the two plates (A). The currents are the time derivatives of the charges that are
-/// reciprocal to the forces of Eq. (6). The paper contains no equations for the currents.
+/// Returns the currents into the two plates (A). The currents are the time derivatives of the charges q₁ and
+/// q₂, which follow from the forces of Eq. (6) by reciprocity. The paper contains no equations for the
+/// currents.
 ///
 /// ```text
 /// q₁ = C_p V₁ + g'(V₁) (x − ½ b x²)     q₂ = C_p V₂ − g'(V₂) (x + ½ b x²)

@@ -1,4 +1,5 @@
-//! The chord of the lumped wing of the bimorph model: strips for body motion, and integrals for circulation and added mass.
+//! The chord of the wing in the bimorph model. From the chord, the module computes strips for body motion,
+//! and integrals for circulation and added mass.
 
 use super::params::{CentreOfPressure, Params};
 use crate::aero::{AddedMass, Circulation, ObliqueStrip, RotationalForce};
@@ -6,8 +7,8 @@ use crate::body::{BodyMotion, BodyTerms};
 use crate::parameter::Invalid;
 use crate::quadrature::gauss_beta;
 
-/// Number of strips. With four strips, the forces at zero body motion are exact, and also their first derivatives with
-/// respect to body motion.
+/// Number of strips. With four strips, the forces at zero body motion are exact. The first derivatives of the
+/// forces with respect to body motion are also exact.
 const STRIPS: usize = 4;
 
 crate::per_lane! {
@@ -15,8 +16,8 @@ crate::per_lane! {
     pub struct Moving<R> {
         /// Motion of the shoulder.
         pub motion: BodyMotion<R>,
-        /// Strips of the wing. The chord of each strip is the mean chord, which is the unit of the centre of pressure
-        /// in Eq. (11).
+        /// Strips of the wing. Each strip has the mean chord, because Eq. (11) gives the centre of pressure
+        /// in mean chords.
         pub strips: [ObliqueStrip<R>; STRIPS],
     }
 }
@@ -26,10 +27,12 @@ impl Moving<f64> {
     pub(super) const REST: Moving<f64> =
         Moving { motion: BodyMotion::REST, strips: [ObliqueStrip::NONE; STRIPS] };
 
-    /// Returns the constants of a point, if the equations contain the given `terms` of body motion.
+    /// Returns the motion of the body and the strips of the wing. If `terms` is `BodyTerms::None`, the
+    /// function returns a body at rest.
     ///
     /// # Errors
-    /// Returns an error if `centre_of_pressure` is "literal", or if no wing has the given radii.
+    /// Returns an error if the body moves and `centre_of_pressure` is "literal", or if no wing has the given
+    /// radii.
     pub(super) fn of(p: &Params, terms: BodyTerms) -> Result<Moving<f64>, Invalid> {
         if terms == BodyTerms::None {
             return Ok(Moving::REST);
@@ -50,7 +53,8 @@ impl Moving<f64> {
 /// P = r̂₁ K     Q = (1 − r̂₁) K     K = r̂₁ (1 − r̂₁)/(r̂₂² − r̂₁²) − 1
 /// ```
 ///
-/// By default r̂₁ follows the relation r̂₂ = 0.929 r̂₁^0.732 of insect wings (Ellington 1984).
+/// If `wing_radius_1` is not set, r̂₁ is computed from the relation r̂₂ = 0.929 r̂₁^0.732 for insect wings
+/// (Ellington 1984).
 struct Chord {
     length: f64,
     mean: f64,
@@ -95,13 +99,15 @@ impl Chord {
     }
 }
 
-/// Constants of the forces along the wing's normal.
+/// Constants of three forces along the wing's normal: rotational circulation, rotational drag and added mass.
 type Unsteady = (Circulation<f64>, RotationalForce<f64>, AddedMass<f64>);
 
-/// Returns rotational circulation, normal force of the rotational drag, and added mass of the wing's sections.
+/// Returns the constants of the rotational circulation, of the normal force of the rotational drag, and of
+/// the added mass.
 ///
 /// # Errors
-/// Returns an error if no wing has the given radii, or if the integrals over the chord diverge at root or tip.
+/// Returns an error if no wing has the given radii, or if the integrals over the chord diverge at the root or
+/// the tip.
 pub(super) fn unsteady(p: &Params) -> Result<Unsteady, Invalid> {
     if !p.has_sections() {
         return Ok((Circulation::NONE, RotationalForce::NONE, AddedMass::NONE));
@@ -128,7 +134,8 @@ pub(super) fn unsteady(p: &Params) -> Result<Unsteady, Invalid> {
 
 /// Returns the strips of the wing, one for each node of the Gauss rule whose weight function is the [`Chord`].
 ///
-/// The lever arms of the moments about the stroke axis are λ r, so that lift and drag act at R_cp at zero body motion:
+/// The lever arm of each strip about the stroke axis is λ r. The factor λ is chosen so that lift and drag act
+/// at the distance R_cp if the body is at rest:
 ///
 /// ```text
 /// λ = R_cp r̂₂²/(R r̂₃³)     r̂₃³ = P (P + 1) (P + 2)/((P + Q) (P + Q + 1) (P + Q + 2))

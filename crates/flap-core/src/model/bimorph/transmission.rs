@@ -1,4 +1,5 @@
-//! The transmission of the bimorph model, whose ratio is constant or grows with the square of the displacement.
+//! The transmission of the bimorph model. The transmission ratio is constant, or grows with the square of the
+//! displacement of the actuator's tip.
 //!
 //! ```text
 //! φ = T x + T₃ x³/3     φ̇ = T(x) ẋ     T(x) = T + T₃ x²
@@ -14,7 +15,7 @@
 use super::constants::Constants;
 use crate::num::Real;
 
-/// Law of the transmission ratio as a function of the displacement.
+/// Dependence of the transmission ratio on the displacement of the actuator's tip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Law {
     /// T(x) = T.
@@ -23,7 +24,7 @@ pub enum Law {
     Square,
 }
 
-/// The transmission ratio at a displacement of the tip, relative to the ratio T at rest.
+/// Transmission ratio at one displacement of the actuator's tip, divided by the transmission ratio T at rest.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Transmission<R> {
     /// T(x) = T.
@@ -50,8 +51,9 @@ impl<R: Real> Transmission<R> {
         }
     }
 
-    /// Returns `number` times the relative transmission ratio t. For ẋ, the result is φ̇/T (m/s). For T times a moment
-    /// about the stroke axis, the result is a force at the tip (N).
+    /// Returns `number` times the relative transmission ratio t. If `number` is ẋ, the result is φ̇/T (m/s).
+    /// If `number` is T times a moment about the stroke axis, the result is the equivalent force at the
+    /// actuator's tip (N).
     #[inline(always)]
     pub(super) fn times(&self, number: R) -> R {
         match *self {
@@ -73,7 +75,8 @@ impl<R: Real> Transmission<R> {
         }
     }
 
-    /// Returns the acceleration of the stroke, divided by T, φ̈/T (m/s²): `t ẍ + t′ ẋ²`.
+    /// Returns φ̈/T, the acceleration of the stroke divided by the transmission ratio at rest (m/s²): `t ẍ +
+    /// t′ ẋ²`.
     #[inline(always)]
     pub(super) fn stroke_acceleration(&self, x_ddot: R, x_dot: R) -> R {
         match *self {
@@ -95,7 +98,8 @@ pub(super) fn stroke<R: Real>(c: &Constants<R>, law: Law, x: R) -> R {
 impl Constants<f64> {
     /// Returns the displacement (m) of the actuator's tip at a stroke angle (rad).
     ///
-    /// The function is the inverse of [`stroke`] between the displacements at which the transmission ratio is zero.
+    /// The function inverts [`stroke`]. If the transmission ratio is zero at some displacements, the result
+    /// lies between these displacements.
     pub(super) fn tip(&self, stroke: f64) -> f64 {
         let tau = self.ratio_growth;
         let linear = stroke / self.ratio;

@@ -5,16 +5,16 @@ use super::transmission::Law;
 use crate::drive::Drive;
 use crate::model::Terms;
 
-/// Variant of the bimorph model: the choices that select the form of the equations.
+/// Variant of the bimorph model: the options that select the form of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bimorph {
     /// Drive voltage.
     pub drive: Drive,
-    /// Law of the transmission ratio.
+    /// Dependence of the transmission ratio on the displacement.
     pub law: Law,
     /// Attack angle on which the centre of pressure depends.
     pub centre_of_pressure: CentreOfPressure,
-    /// Terms that the paper leaves out.
+    /// Terms of the equations that the paper leaves out.
     pub terms: Terms,
 }
 
