@@ -68,7 +68,7 @@ impl Signal {
         }
     }
 
-    /// Returns true if the signal has columns of its own.
+    /// Returns true if the results contain columns for the signal.
     pub(crate) fn is_shown(&self) -> bool {
         !self.measures.is_empty()
     }
@@ -279,7 +279,7 @@ impl SignalCycle {
     }
 }
 
-/// A unit of columns. A model may also declare units of its own.
+/// A unit of columns. A model may also declare units that are not in this list.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit {
     /// Symbol of the unit, such as `mN`.

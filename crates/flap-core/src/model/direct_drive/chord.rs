@@ -1,5 +1,5 @@
-//! The chord of the wing along the span, from Legendre polynomials or from a table, with the shape moments of the
-//! chord. The paper contains no chord shape.
+//! The chord of the wing along the span, from Legendre polynomials or from a table. The module also computes
+//! the shape moments of the chord. The paper does not give the shape of the chord.
 
 use super::params::{FlowDirection, Params};
 use crate::aero::{Cut, Strips, check_chords, cut, sum};
@@ -8,13 +8,14 @@ use crate::quadrature::gauss_legendre;
 
 /// Number of blade elements.
 ///
-/// With 8 elements at the nodes of the Gauss-Legendre rule, the shape moments of a cubic chord are exact. The relative
-/// difference between the settled motions with 8 and with 64 elements is less than 1e-5.
+/// With 8 elements at the nodes of the Gauss-Legendre rule, the shape moments are exact if the chord is a
+/// cubic polynomial of the span. The relative difference between the settled motions with 8 and with 64
+/// elements is less than 1e-5.
 pub(super) const BLADES: usize = 8;
 
 impl Params {
-    /// Returns the parameters with the values that follow from the chord shape: mean chord, midspan chord, and the
-    /// shape moments of Eqs. (22) and (33).
+    /// Returns a copy of the parameters in which flap has computed some values from the chord shape. These
+    /// values are the mean chord, the midspan chord, and the shape moments of Eqs. (22) and (33).
     #[must_use]
     pub fn with_chord_moments(self) -> Params {
         let cuts = elements(&self);
@@ -38,7 +39,8 @@ impl Params {
         }
     }
 
-    /// Returns the chord (m) at `span` wing lengths from the root, from the table or from Legendre polynomials.
+    /// Returns the chord (m) at a distance of `span` wing lengths from the root. The chord comes from the
+    /// table, or from Legendre polynomials:
     ///
     /// ```text
     /// c = c̄ (1 + a₁ P₁(z) + a₂ P₂(z) + a₃ P₃(z))     z = 2 span − 1
@@ -55,8 +57,8 @@ impl Params {
     }
 }
 
-/// Returns the blade elements, whose velocity is computed at mid-chord. With `flow_direction` = "uniform", the list of
-/// elements is empty.
+/// Returns the blade elements of the wing. The velocity of each element is computed at its mid-chord. With
+/// `flow_direction` = "uniform", the list of elements is empty.
 pub(super) fn blades(p: &Params) -> Result<Strips<f64, BLADES>, Invalid> {
     let cuts = match p.flow_direction {
         FlowDirection::Uniform => Vec::new(),

@@ -1,7 +1,7 @@
-//! Constants of the direct-drive model, computed once per point.
+//! Constants of the direct-drive model, which flap computes once for each design point.
 //!
-//! Equation numbers refer to Ozaki and Hamaguchi (2018). The module also computes the products of constants that the
-//! equations of motion contain.
+//! Equation numbers refer to Ozaki and Hamaguchi (2018). The module also computes products of constants, so
+//! that the equations of motion need fewer multiplications.
 
 use core::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -18,45 +18,50 @@ use crate::springs::{Stiffening, structural_damping};
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Constants of the drive: the voltage, or the prescribed stroke.
+        /// Constants of the drive, which is a voltage or a prescribed stroke.
         pub drive: DriveConstants<R>,
 
-        /// Stroke stiffness k_φ (N·m/rad), Eq. (11).
+        /// Rotational stiffness k_φ of the actuator about the stroke axis (N·m/rad), Eq. (11).
         pub k_phi: R,
         /// Hinge stiffness k_w (N·m/rad).
         pub k_w: R,
-        /// Viscous damping of the stroke, including the damping equivalent to the loss factor of the actuator (N·m·s).
+        /// Viscous damping of the stroke, including the damping that is equivalent to the loss factor of the
+        /// actuator (N·m·s).
         pub stroke_damping: R,
-        /// Viscous damping of the hinge, including the damping equivalent to the hinge's loss factor (N·m·s).
+        /// Viscous damping of the hinge, including the damping that is equivalent to the hinge's loss factor
+        /// (N·m·s).
         pub hinge_damping: R,
-        /// Strain of the hinge per pitch angle (1/rad); zero if the dimensions of the hinge are not set.
+        /// Strain of the hinge's flexure per pitch angle (1/rad), or zero if the dimensions of the hinge are
+        /// not set.
         pub hinge_strain: R,
-        /// Torque per voltage and charge per stroke angle Γ (N·m/V = C/rad), Eqs. (11) and (38).
+        /// Coupling Γ of the actuator: torque per voltage, and charge per stroke angle (N·m/V = C/rad),
+        /// Eqs. (11) and (38).
         pub gamma: R,
-        /// Capacitance C_p (F), Eq. (37).
+        /// Capacitance C_p of the actuator (F), Eq. (37).
         pub c_p: R,
-        /// Equivalent conductance of the dielectric loss (S).
+        /// Conductance that represents the dielectric loss of the actuator (S).
         pub conductance: R,
-        /// Share, recovered by the supply, of the power that the actuator returns.
+        /// Fraction, from 0 to 1, of the power returned by the actuator that the power supply recovers.
         pub charge_recovery: R,
 
-        /// Inertia of actuator, leading edge and wing about the stroke axis m₁₁ (kg·m²).
+        /// Moment of inertia m₁₁ of actuator, leading edge and wing about the stroke axis (kg·m²).
         pub m11: R,
-        /// Inertia m_s of the wing about the span axis, which increases the inertia of the stroke if the pitch is not
-        /// zero (kg·m²).
+        /// Moment of inertia m_s of the wing about the span axis (kg·m²). If the pitch is not zero, m_s
+        /// increases the inertia of the stroke.
         pub m_s: R,
-        /// Inertial coupling of stroke and pitch m₁₂ (kg·m²).
+        /// Inertial coupling m₁₂ of stroke and pitch (kg·m²).
         pub m12: R,
         /// Pitch inertia m₂₂ (kg·m²).
         pub m22: R,
 
-        /// Added mass of Eqs. (28)–(30), without the rotation about the mid-chord.
+        /// Added mass of Eqs. (28)–(30), without the added inertia of a rotation about the mid-chord.
         pub added: AddedMass<R>,
         /// Rotational circulation of the blade elements.
         pub circulation: Circulation<R>,
-        /// Normal force of the rotational drag.
+        /// Force of the rotational drag along the wing's normal.
         pub rotational_force: RotationalForce<R>,
-        /// Factor of the gyroscopic terms of the added mass: 1 for `added_mass` = "lagrangian", 0 for "paper".
+        /// Factor that multiplies the gyroscopic terms of the added mass: 1 if `added_mass` is "lagrangian",
+        /// and 0 if `added_mass` is "paper".
         pub gyroscopic: R,
 
         /// Factor of the stroke rate in the mean velocity of the wing: R/2 + x_r (m).
@@ -64,14 +69,14 @@ crate::per_lane! {
         /// Factor of the pitch rate in the mean velocity of the wing: half of the midspan chord, c(R/2)/2 (m).
         pub mid_half_chord: R,
 
-        /// Lift coefficient amplitude K_L, Eq. (26).
+        /// Amplitude K_L of the lift coefficient, Eq. (26).
         pub k_lift: R,
         /// Mean of the largest and the smallest drag coefficient, Eq. (26).
         pub drag_mean: R,
         /// Half of the difference between the largest and the smallest drag coefficient, Eq. (26).
         pub drag_swing: R,
 
-        /// Further terms of the force coefficients and of the centre of pressure.
+        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
         pub harmonics: Harmonics<R>,
 
         /// Factors of φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² in the lift (kg), Eq. (21): ½ρA_w [R² I₂₁, −R c̄ I₁₂, c̄² I₀₃/4].
@@ -82,35 +87,36 @@ crate::per_lane! {
         /// Factors of φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² in the pitch moment (kg·m), Eq. (23): ½ρA_w c̄ [R² I₂₂, −R c̄ I₁₃,
         /// c̄² I₀₄/4].
         pub pitch: [R; 3],
-        /// Moment of the rotational drag, divided by ψ̇|ψ̇| (kg·m²), Eq. (32): ½ρC_rd R I_rd.
+        /// Magnitude of the moment of the rotational drag, divided by ψ̇² (kg·m²), Eq. (32): ½ρC_rd R I_rd.
         pub rotation: R,
-        /// Blade elements of the wing for `flow_direction` = "blade", otherwise no elements.
+        /// Blade elements of the wing. If `flow_direction` is not "blade", the list is empty.
         pub blades: Strips<R, BLADES>,
 
         /// Shift of the centre of pressure per radian of attack angle, in chords, Eq. (24).
         pub pressure_slope: R,
         /// Centre of pressure at an attack angle of zero, in chords, Eq. (24).
         pub pressure_offset: R,
-        /// Selects one of three definitions of the attack angle: π/2 − σψ relative to the motion, π/2 − |ψ|, and
-        /// π/2 − ψ. The entry of the selected definition is 1, and the other entries are 0.
+        /// Factors that select one of three definitions of the attack angle: π/2 − σψ (relative to the
+        /// motion), π/2 − |ψ|, and π/2 − ψ. The factor of the selected definition is 1, and the two other
+        /// factors are 0.
         pub attack: [R; 3],
 
-        /// The factor is +1 if F_am sin ψ is subtracted from the lift, and −1 if F_am sin ψ is added as printed in Eq.
-        /// (35).
+        /// Sign of the added mass in the lift. With +1, F_am sin ψ is subtracted from the lift. With −1, F_am
+        /// sin ψ is added, as printed in Eq. (35).
         pub lift_sign: R,
 
-        /// Thickness of the piezoelectric layer t₀ (m).
+        /// Thickness t₀ of the piezoelectric layer (m).
         pub piezo_thickness: R,
         /// Strain of the piezoelectric layer's outer face per radian of stroke (1/rad): z_c / L_A.
         pub strain_per_stroke: R,
-        /// Nonlinear parts of the springs.
+        /// Nonlinear terms of the springs of stroke and hinge.
         pub stiffening: Stiffening<R>,
         /// Motion of the body.
         pub moving: BodyMotion<R>,
     }
 }
 
-/// Returns the layers of the actuator.
+/// Returns the layers of the actuator as a laminate.
 fn laminate(p: &Params) -> Laminate<3> {
     let layer = |[thickness, modulus, density]: [f64; 3]| Layer { thickness, modulus, density };
     Laminate::of([
@@ -135,12 +141,12 @@ fn check(p: &Params) -> Result<(), Invalid> {
 }
 
 impl Constants<f64> {
-    /// Returns the constants of a point, with the body at rest.
+    /// Returns the constants of a design point for a body at rest.
     ///
     /// # Errors
-    /// Returns an error if the chord is negative somewhere, the mass matrix is not positive definite at some pitch, or
-    /// a constant is not finite. Returns an error, too, if the printed sign of the lift is combined with normal forces
-    /// that the paper leaves out.
+    /// Returns an error if the chord is negative somewhere, the mass matrix is not positive definite at some
+    /// pitch, or a constant is not finite. Returns an error if `lift_sign` is "printed" and
+    /// `circulation_factor` or `rotation_force_factor` is not zero.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         check(p)?;
         let p = &if p.chords.is_on() || p.flow_direction == FlowDirection::Blade {
@@ -259,11 +265,12 @@ impl Constants<f64> {
         Invalid::unless_finite(constants)?.checked()
     }
 
-    /// Returns the constants, if the equations contain the given `terms` of body motion.
+    /// Returns a copy of the constants that also contains the motion of the body. If `terms` is
+    /// `BodyTerms::None`, the body remains at rest.
     ///
     /// # Errors
-    /// Returns an error if `flow_direction` is "uniform", `centre_of_pressure` is "literal" or `added_mass` is
-    /// "lagrangian".
+    /// If the body moves, returns an error if `flow_direction` is "uniform", `centre_of_pressure` is
+    /// "literal" or `added_mass` is "lagrangian".
     pub(super) fn with_motion(&self, p: &Params, terms: BodyTerms) -> Result<Constants<f64>, Invalid> {
         if terms == BodyTerms::None {
             return Ok(*self);

@@ -1,11 +1,12 @@
 //! The equations of the direct-drive model with the terms that the paper leaves out.
 //!
-//! The terms are motion of the body, further terms of the attack angle, rotational circulation, rotational drag along
-//! the normal, and nonlinear springs. If all these terms are zero, [`super::rhs`] computes the same derivatives, apart
-//! from rounding errors.
+//! The additional terms are motion of the body, higher harmonics of the attack angle, rotational circulation,
+//! rotational drag along the wing's normal, and nonlinear springs. If all additional terms are zero,
+//! [`super::rhs`] computes the same derivatives as this module, apart from rounding errors.
 //!
-//! Body motion requires the blade elements, each of which has its own direction of flow. The functions for the forces
-//! of the air are compiled out of line, so that the terms need no computing time if they are zero.
+//! Body motion requires blade elements, because each blade element then has its own direction of flow. The
+//! aerodynamic functions of this module are not inlined into other equations. The additional terms therefore
+//! need no computing time if they are zero.
 
 use super::constants::Constants;
 use super::rhs::{Aerodynamics, added_mass, aerodynamics, balance_in};
@@ -15,19 +16,21 @@ use crate::body::{BodyTerms, Shoulder};
 use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
 
-/// Forces of the air on a wing, and the inertial moment due to the motion of the body.
+/// Aerodynamic forces on a wing, and the inertial moment due to the rotation of the body.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Air<R> {
-    /// Translational and rotational aerodynamics.
+    /// Translational and rotational aerodynamic forces.
     pub(super) forces: Aerodynamics<R>,
-    /// Load of circulation and rotational drag, and of the added mass due to the motion of the body.
+    /// Force along the wing's normal, with its moments: circulation, rotational drag, and the part of the
+    /// added mass that is due to body motion.
     pub(super) normal: NormalLoad<R>,
-    /// Inertial moment per rate g (N·m·s), see [`Shoulder::gyroscopic`].
+    /// Inertial moment g per stroke rate or pitch rate (N·m·s), see [`Shoulder::gyroscopic`].
     gyroscopic: R,
 }
 
 impl<R: Real> Air<R> {
-    /// Returns the power that the wing loses to translational forces and to the `normal` load (W).
+    /// Returns the power that the wing loses to the translational aerodynamic forces and to the load `normal`
+    /// (W).
     #[inline(always)]
     pub(super) fn translational_power(&self, [phi_dot, psi_dot]: [R; 2], cos: R) -> R {
         let Air { forces, normal, .. } = self;
@@ -35,15 +38,17 @@ impl<R: Real> Air<R> {
             + (forces.pitch_moment + normal.span_moment) * psi_dot)
     }
 
-    /// Returns the sum of the `normal` load and the load of the added mass, given the accelerations in `dy`.
+    /// Returns the sum of the load `normal` and the load of the added mass. The argument `dy` contains the
+    /// accelerations of the wing.
     #[inline(always)]
     pub(super) fn with_added_mass(&self, c: &Constants<R>, [sin, cos]: [R; 2], dy: &[R; 4]) -> NormalLoad<R> {
         added_mass(c, sin, cos, dy).plus(&self.normal)
     }
 }
 
-/// Returns the forces of the air at a state. On a moving body, Eqs. (19) to (26) are evaluated for each blade element
-/// in oblique flow. Eq. (32) gives the rotational drag.
+/// Returns the aerodynamic forces on the wing at the state `y`. On a moving body, the function evaluates
+/// Eqs. (19) to (26) for each blade element, with the direction of the flow past this element. The rotational
+/// drag is computed from Eq. (32).
 #[inline(always)]
 pub(super) fn air<R: Real>(
     c: &Constants<R>,
@@ -107,8 +112,10 @@ fn air_inlined<R: Real>(
     }
 }
 
-/// Returns mass matrix and generalised forces. The function adds the `normal` load of the air and the nonlinear moments
-/// of the springs to the forces of [`balance_in`]. The inertial moments −g φ̇ and g ψ̇ are also added.
+/// Returns the mass matrix and the generalised forces of the equations of motion. To the forces of
+/// [`balance_in`], the function adds the aerodynamic load along the wing's normal and the nonlinear moments
+/// of the springs. The function also adds the inertial moments g ψ̇ about the stroke axis and −g φ̇ about the
+/// pitch axis.
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, model: &DirectDrive, side: R, y: &[R; 4]) -> Balance<R> {
     let [phi, psi, phi_dot, psi_dot] = *y;

@@ -1,8 +1,9 @@
 //! A unimorph piezoelectric actuator attached directly to a wing. The wing pitches on a flexure hinge.
 //!
 //! Ozaki and Hamaguchi, "Electro-aero-mechanical model of piezoelectric direct-driven flapping-wing
-//! actuator", Applied Sciences 8, 1699 (2018). The model contains Lagrangian wing inertia, added mass in the mass
-//! matrix, quasi-steady translational and rotational aerodynamics in moment form, current and power.
+//! actuator", Applied Sciences 8, 1699 (2018). The model contains the inertia of the wing from Lagrange's
+//! equations, added mass in the mass matrix, and quasi-steady translational and rotational aerodynamics. The
+//! model also computes the current and the electrical power.
 
 mod chord;
 mod constants;

@@ -1,4 +1,5 @@
-//! The direct-drive model: equations of motion, signals, columns of rows, and single motions.
+//! The direct-drive model: equations of motion, signals, columns of the results, and experiments such as
+//! chirps.
 
 use super::constants::Constants;
 use super::general;
@@ -72,7 +73,8 @@ const DERIVED: &[Column] = &[
         |_, c, _| DirectDrive::modes(c)[1].frequency),
 ];
 
-/// Returns the sums over the second half of a period that is mirrored about the origin.
+/// Returns the time integrals and extrema of the signals over the second half of a period, which mirrors the
+/// first half about the zero state.
 fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
     Signals {
         stroke: first.stroke.negated(),
@@ -92,8 +94,8 @@ impl Ode<4> for DirectDrive {
         self.drive.at(&c.drive, t)
     }
 
-    /// The paper takes one direction of flow for the whole wing, so forces jump where it changes. With blade elements
-    /// they do not.
+    /// In the paper, the whole wing has one direction of flow, so forces jump when this direction changes.
+    /// With blade elements, no forces jump.
     const SWITCHES: bool = true;
 
     #[inline(always)]
@@ -108,7 +110,7 @@ impl Ode<4> for DirectDrive {
 
     const HAS_PLAIN: bool = true;
 
-    /// Returns true if the equations of motion contain no terms of `general`.
+    /// Returns true if the equations of motion need no terms of the module `general`.
     #[inline(always)]
     fn is_plain(&self) -> bool {
         self.terms.is_plain()
@@ -135,7 +137,8 @@ impl DirectDrive {
         [c.m11 + c.added.a11, c.m12 - c.added.a12, c.m22 + c.added.a22]
     }
 
-    /// Returns the derivative of the state; without the code of `general` if `PLAIN`.
+    /// Returns the time derivative of the state. If `PLAIN` is true, the function contains no code of the
+    /// module `general`.
     #[inline(always)]
     fn derivative<R: Real, const PLAIN: bool>(
         &self,
@@ -157,7 +160,8 @@ impl DirectDrive {
         }
     }
 
-    /// Returns the signals at an instant; without the code of `general` if `PLAIN`.
+    /// Returns the signals at one instant. If `PLAIN` is true, the function contains no code of the module
+    /// `general`.
     #[inline(always)]
     fn signals_at<R: Real, const PLAIN: bool>(
         &self,
@@ -201,7 +205,8 @@ impl DirectDrive {
     }
 }
 
-/// Returns the parameters that depend on the wing. In this model the hinge's axis is the leading edge.
+/// Returns the parameters that depend on a user-defined wing. In the direct-drive model, the hinge's axis is
+/// the leading edge of the wing.
 fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
     let mut found = vec![("wing_length", wing.outline.length()), ("wing_offset", wing.offset)];
     found.extend(chord_table(&wing.outline));
@@ -261,7 +266,8 @@ impl Model<4> for DirectDrive {
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
     }
 
-    /// The symmetry is about the rest position under the constant part of the voltage, which only shifts the stroke.
+    /// The second half of a period mirrors the first half about the rest position at the constant part of the
+    /// voltage. The constant part only shifts the stroke.
     fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
         let [.., literal] = c.attack;
         if literal != 0.0 || self.terms.body != BodyTerms::None || !self.drive.is_symmetric(&c.drive) {
@@ -292,8 +298,8 @@ impl Model<4> for DirectDrive {
         self.signals_at::<R, true>(c, at)
     }
 
-    /// ⟨Vj⟩ = −⟨M_tr,y φ̇ + (M_tr,x′ + M_rot) ψ̇⟩ + ⟨damping⟩ + ⟨dielectric loss⟩: all other energy returns within a
-    /// period.
+    /// The mean electrical power is ⟨Vj⟩ = −⟨M_tr,y φ̇ + (M_tr,x′ + M_rot) ψ̇⟩ + ⟨damping⟩ + ⟨dielectric
+    /// loss⟩. All other energy is stored and returned within a period.
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         cycle.power.balance(&[
             cycle.power_translational,
@@ -335,7 +341,7 @@ impl ExperimentModel<4> for DirectDrive {
         Constants { drive, ..*c }
     }
 
-    /// Returns the modes about ψ = 0, with the added mass of still air.
+    /// Returns the natural modes of small motions about ψ = 0, with the added mass in still air.
     fn modes(c: &Constants<f64>) -> Vec<Mode> {
         Mode::coupled(DirectDrive::mass_at_rest(c), [c.k_phi, c.k_w])
     }

@@ -10,11 +10,12 @@ use crate::piezo::{EPSILON_0, ElectricalParameters};
 use crate::springs::HingeParameters;
 
 crate::parameters! {
-    /// Parameters of the direct-drive model, in SI units. Symbols as in Ozaki and Hamaguchi 2018, Table A1.
+    /// Parameters of the direct-drive model, in SI units. The symbols are taken from Table A1 of Ozaki and
+    /// Hamaguchi (2018).
     pub struct Params {
         ["drive"]
-        /// Peak-to-peak drive voltage: twice V_0 of Ozaki and Hamaguchi (2018). If drive_shape is "harmonics",
-        /// drive_voltage_pp is the peak-to-peak voltage of the fundamental alone.
+        /// Peak-to-peak drive voltage: twice V_0 of Ozaki and Hamaguchi (2018). If drive_shape is
+        /// "harmonics", drive_voltage_pp is the peak-to-peak voltage of the first harmonic alone.
         drive_voltage_pp: f64 = ("V", "2 V_0", Number(NonNegative)) 60.0,
         /// Constant part of the drive voltage. The drive voltage of Ozaki and Hamaguchi (2018) is V_0 sin(w t) + V_0.
         drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")) None,
@@ -39,8 +40,9 @@ crate::parameters! {
         wing_mass: f64 = ("kg", "M_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 2.31e-6,
         /// Distance of the wing's centre of mass from the root of the wing, along the span.
         mass_centre_span: f64 = ("m", "r_g", Number(Any), scales_with: &[("wing_length", 1.0)]) 9.42e-3,
-        /// Chordwise position of the wing's centre of mass, positive towards the leading edge. The position of a real
-        /// wing is negative, but Ozaki and Hamaguchi (2018) print the magnitude.
+        /// Chordwise position of the wing's centre of mass, positive towards the leading edge. The centre of
+        /// mass of a real wing is behind the leading edge, so mass_centre_chord is negative. Ozaki and
+        /// Hamaguchi (2018) print its magnitude.
         mass_centre_chord: f64 = ("m", "y_g", Number(Any), scales_with: &[("wing_length", 1.0)]) -2.48e-3,
         /// Moment of inertia of the wing about the spanwise axis through its centre of mass.
         wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.81e-12,
@@ -60,15 +62,17 @@ crate::parameters! {
         hinge: HingeParameters = (flatten) HingeParameters::NONE,
 
         ["wing shape"]
-        /// Direction of the flow for the translational forces: of the whole wing ("uniform"), or of each blade element
-        /// ("blade"). The direction "uniform" is computed from the mean velocity of the wing, as in Ozaki and Hamaguchi
-        /// (2018). The direction "blade" is computed from the velocity of each blade element. With "blade", flap
-        /// computes the shape moments, rotation_moment and midspan_chord from the chord shape, and ignores values
-        /// given for these parameters.
+        /// Direction of the flow in the translational forces: one direction for the whole wing ("uniform"),
+        /// or one direction for each blade element ("blade"). With "uniform", the direction is computed from
+        /// the mean velocity of the wing, as in Ozaki and Hamaguchi (2018). With "blade", the directions are
+        /// computed from the velocities of the blade elements. With "blade", flap computes the shape moments,
+        /// rotation_moment and midspan_chord from the chord shape, and ignores values given for these
+        /// parameters.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
-        /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_1(2r/R - 1) in chord /
-        /// mean_chord. The constant term of the polynomial series is 1. Ozaki and Hamaguchi (2018) give no chord shape:
-        /// the coefficients were fitted to the published shape moments.
+        /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_1(2r/R - 1) in
+        /// chord / mean_chord. The constant term of this series of Legendre polynomials is 1. Ozaki and
+        /// Hamaguchi (2018) give no chord shape, so the coefficients were fitted to the published shape
+        /// moments.
         chord_legendre_1: f64 = ("", "a_1", Number(Any)) 0.0562,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_2(2r/R - 1) in chord /
         /// mean_chord. The coefficient was fitted to the shape moments of Ozaki and Hamaguchi (2018).
@@ -76,8 +80,8 @@ crate::parameters! {
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_3(2r/R - 1) in chord /
         /// mean_chord. The coefficient was fitted to the shape moments of Ozaki and Hamaguchi (2018).
         chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
-        /// Table of the chord. The table replaces mean_chord, midspan_chord, the shape moments and rotation_moment, for
-        /// every flow_direction.
+        /// Table of the chord. If the table is on, flap computes mean_chord, midspan_chord, the shape moments
+        /// and rotation_moment from the table, for every flow_direction.
         chords: ChordTable = (flatten) ChordTable::off(),
         /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22), for flow_direction = "uniform".
         shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)) 1.02,
@@ -93,8 +97,8 @@ crate::parameters! {
         shape_moment_22: f64 = ("", "I_w2,2", Number(Positive)) 0.84,
         /// Wing shape moment: normalised integral of radius^3 * chord along the span, for flow_direction = "uniform".
         shape_moment_31: f64 = ("", "I_w3,1", Number(Positive)) 0.85,
-        /// Moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along the span, for
-        /// flow_direction = "uniform".
+        /// Shape moment of the rotational drag, Eq. (33): integral of |y|^3 over the chord, averaged along
+        /// the span, for flow_direction = "uniform".
         rotation_moment: f64 = ("m^4", "I_rd", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.68e-10,
 
         ["actuator"]
@@ -122,13 +126,15 @@ crate::parameters! {
         adhesive_density: f64 = ("kg/m^3", "rho_1", Number(NonNegative)) 1500.0,
         /// Density of the shim. The value of shim_density is already halved because of the slits in the shim.
         shim_density: f64 = ("kg/m^3", "rho_2", Number(NonNegative)) 2250.0,
-        /// Piezoelectric coefficient. A piezo_coefficient of the opposite sign gives the mirror image of the motion.
+        /// Piezoelectric coefficient. If piezo_coefficient changes its sign, the motion changes into its
+        /// mirror image.
         piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)) 950e-12,
         /// Permittivity of the piezoelectric layer. Ozaki and Hamaguchi (2018) do not state if the permittivity is for
         /// a free or a clamped layer.
         piezo_permittivity: f64 = ("F/m", "eps_pz", Number(NonNegative)) 2920.0 * EPSILON_0,
-        /// Cubic stiffness of the stroke: the actuator adds a moment of stroke_stiffening times the third power of the
-        /// stroke, against the stroke. Ozaki and Hamaguchi (2018) do not use stroke_stiffening.
+        /// Cubic stiffness of the stroke. The actuator exerts an additional moment against the stroke:
+        /// stroke_stiffening times the third power of the stroke angle. Ozaki and Hamaguchi (2018) do not use
+        /// stroke_stiffening.
         stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
         /// Viscous damping of the stroke about the stroke axis. Ozaki and Hamaguchi (2018) do not use stroke_damping.
         stroke_damping: f64 = ("N*m*s", "", Number(NonNegative), default: 0.0) 0.0,
@@ -143,7 +149,8 @@ crate::parameters! {
         ["air"]
         /// Density of the air.
         air_density: f64 = ("kg/m^3", "rho_Air", Number(NonNegative)) 1.29,
-        /// Lift coefficient of the wing at an attack angle of 45 deg. The aspect ratio A is wing_length divided by mean_chord.
+        /// Lift coefficient of the wing at an attack angle of 45 deg. In the formula of the default value,
+        /// the aspect ratio A is wing_length divided by mean_chord.
         lift_coefficient_max: Option<f64> = ("", "K_L", Following(NonNegative, "pi * A / (2 + sqrt(A^2 + 4)), Eq. (26)")) None,
         /// Drag coefficient of the wing at an attack angle of 90 deg.
         drag_coefficient_max: f64 = ("", "C_Dmax", Number(NonNegative)) 5.0,
@@ -155,23 +162,24 @@ crate::parameters! {
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Distance of the centre of pressure from the leading edge at an attack angle of 0, in chords, Eq. (24).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
-        /// Further terms of the force coefficients and of the centre of pressure.
+        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
-        /// Factor that multiplies the rotational circulation of potential flow. With a factor of 1, the circulation
-        /// follows the theory of Kramer (1932) and Sane and Dickinson (2002). Ozaki and Hamaguchi (2018) do not use
-        /// circulation_factor.
+        /// Factor that multiplies the rotational circulation of potential flow. With circulation_factor = 1,
+        /// the circulation follows the theory of Kramer (1932) and Sane and Dickinson (2002). Ozaki and
+        /// Hamaguchi (2018) do not use circulation_factor.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Factor that multiplies the normal force of the rotational drag. With a factor of 1, the normal force is
-        /// consistent with the moment of Eq. (32). Ozaki and Hamaguchi (2018) do not use rotation_force_factor.
+        /// Factor that multiplies the force of the rotational drag along the wing's normal. With
+        /// rotation_force_factor = 1, this force is consistent with the moment of the rotational drag in
+        /// Eq. (32). Ozaki and Hamaguchi (2018) do not use rotation_force_factor.
         rotation_force_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
 
         ["readings of the paper"]
-        /// Attack angle that determines the centre of pressure, Eq. (24): relative to the motion ("directional"),
-        /// folded to at most 90 deg ("folded"), or as printed ("literal"). Eq. (24) as printed breaks the mirror
-        /// symmetry of the two half strokes.
+        /// Attack angle that determines the centre of pressure, Eq. (24): relative to the motion
+        /// ("directional"), at most 90 deg ("folded"), or as printed ("literal"). With Eq. (24) as printed,
+        /// the two half strokes are not mirror images of each other.
         centre_of_pressure: CentreOfPressure = ("", "", Choice(CentreOfPressure::NAMES)) CentreOfPressure::Directional,
-        /// Moments of the added mass, Eqs. (28) to (30): as in Ozaki and Hamaguchi (2018) for "paper", or with the
-        /// gyroscopic terms of a Lagrangian derivation for "lagrangian".
+        /// Moments of the added mass, Eqs. (28) to (30). With "paper", flap uses the moments of Ozaki and
+        /// Hamaguchi (2018). With "lagrangian", flap adds the gyroscopic terms of a Lagrangian derivation.
         added_mass: AddedMass = ("", "", Choice(AddedMass::NAMES)) AddedMass::Paper,
         /// Sign of the added-mass term in the lift, Eq. (35): corrected ("corrected"), or as printed ("printed"). The
         /// option "printed" requires that circulation_factor and rotation_force_factor are zero.
@@ -184,17 +192,19 @@ crate::parameters! {
 }
 
 crate::choice! {
-    /// Direction of the air flow over the wing while the wing reverses.
+    /// Choice between one direction of the air flow for the whole wing and one direction for each blade
+    /// element.
     pub enum FlowDirection {
-        /// One direction for the whole wing, from the mean velocity of the wing, as in the paper.
+        /// One direction of the flow for the whole wing, computed from the mean velocity of the wing as in
+        /// the paper.
         Uniform = "uniform",
-        /// One direction for each blade element, from the velocity of the blade element.
+        /// One direction of the flow for each blade element, computed from the velocity of this element.
         Blade = "blade",
     }
 }
 
 crate::choice! {
-    /// Interpretations of Eq. (24): the attack angle on which the centre of pressure depends.
+    /// Interpretations of Eq. (24), which differ in the attack angle on which the centre of pressure depends.
     pub enum CentreOfPressure {
         /// |π/2 − σψ| with σ the sign of the wing's velocity: the attack angle relative to the motion.
         Directional = "directional",
@@ -208,7 +218,7 @@ crate::choice! {
 crate::choice! {
     /// Forms of the moments of the added mass, Eqs. (28)–(30).
     pub enum AddedMass {
-        /// The moments as in the paper.
+        /// The moments that the paper gives.
         Paper = "paper",
         /// The moments with the gyroscopic terms of a Lagrangian derivation. The gyroscopic terms do no work.
         Lagrangian = "lagrangian",
@@ -216,7 +226,7 @@ crate::choice! {
 }
 
 crate::choice! {
-    /// Interpretations of Eq. (35): the sign of F_am sin ψ.
+    /// Interpretations of Eq. (35), which differ in the sign of the added-mass term F_am sin ψ.
     pub enum LiftSign {
         /// The lift is F_tr − F_am sin ψ.
         Corrected = "corrected",
@@ -226,7 +236,8 @@ crate::choice! {
 }
 
 impl Params {
-    /// Published presets, and presets with a hypothesis about the published values.
+    /// Published presets, and presets that test a hypothesis: in these presets, the hinge stiffnesses of the
+    /// two robots are swapped.
     pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "ozaki2018-small",
@@ -291,10 +302,11 @@ impl Params {
         self.wing_offset.unwrap_or(0.5 * self.actuator_length)
     }
 
-    /// Returns the parameters with the hinge stiffness of `other`.
+    /// Returns a copy of the parameters with the hinge stiffness of `other`.
     ///
-    /// The hypothesis is that the columns of k_w in Table A1 of the paper are swapped. The text of the paper does not
-    /// prove or disprove the hypothesis.
+    /// Presets with this hinge stiffness test the hypothesis that Table A1 of the paper swaps the values of
+    /// k_w for the two robots. The text of the paper neither proves nor disproves that the values of k_w are
+    /// swapped.
     fn with_hinge_of(self, other: &Params) -> Params {
         Params { hinge_stiffness: other.hinge_stiffness, ..self }
     }

@@ -1,10 +1,11 @@
-//! Equations of motion and outputs of the direct-drive model.
+//! Equations of motion, forces and currents of the direct-drive model.
 //!
 //! Equation numbers refer to Ozaki and Hamaguchi (2018), with the corrections listed in `docs/models/direct-drive.md`.
 //!
-//! The state is `[φ, ψ, φ̇, ψ̇]`: stroke and pitch (rad), and their rates (rad/s). The pitch ψ is zero if the plane of
-//! the wing contains the stroke axis. At φ̇ > 0, the pitch is positive if the trailing edge lags behind the leading
-//! edge. Lift is positive upwards: in the direction from the trailing edge to the leading edge.
+//! The state is `[φ, ψ, φ̇, ψ̇]`: stroke and pitch (rad), and their rates (rad/s). The pitch ψ is zero if the
+//! plane of the wing contains the stroke axis. If φ̇ > 0 and the trailing edge lags behind the leading edge,
+//! the pitch is positive. Lift is positive upwards, which is the direction from the trailing edge to the
+//! leading edge at ψ = 0.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -23,14 +24,14 @@ pub(super) struct Aerodynamics<R> {
     pub(super) lift: R,
     /// Translational drag F_tr,Drag along the wing's motion (N), Eq. (19).
     pub(super) drag: R,
-    /// Moment about the stroke axis M_tr,y (N·m), Eq. (25).
+    /// Moment M_tr,y of the translational forces about the stroke axis (N·m), Eq. (25).
     pub(super) stroke_moment: R,
     /// Moment of the lift ∫ X dF_tr,Lift (N·m). Neither the paper nor the equations of motion contain the moment of the
     /// lift.
     pub(super) lift_moment: R,
-    /// Moment about the span axis M_tr,x′ (N·m), Eq. (23) with corrected sign.
+    /// Moment M_tr,x′ of the translational forces about the span axis (N·m), Eq. (23) with corrected sign.
     pub(super) pitch_moment: R,
-    /// Rotational drag moment M_rot (N·m), Eq. (32).
+    /// Moment M_rot of the rotational drag about the span axis (N·m), Eq. (32).
     pub(super) rotation_moment: R,
 }
 
@@ -42,8 +43,9 @@ pub(super) struct Aerodynamics<R> {
 /// F_Lift = C_L ∫ q dr     M_y = −C_D ∫ q X dr     M_x′ = C_N ∫ q c d_cp dr     q = ½ρ c u|u|
 /// ```
 ///
-/// `flow` selects the direction of flow for u|u| and d_cp. `side` is σ, the sign of the wing's [`mean_velocity`]. With
-/// `harmonics`, C_L, C_D and d_cp contain the further terms of the attack angle.
+/// `flow` selects the direction of the flow in u|u| and d_cp: one direction for the whole wing, or one for
+/// each blade element. `side` is σ, the sign of the wing's [`mean_velocity`]. If `harmonics` is true, C_L,
+/// C_D and d_cp also contain the terms of `aero::Harmonics`.
 #[inline(always)]
 pub(super) fn aerodynamics<R: Real>(
     c: &Constants<R>,
@@ -82,13 +84,13 @@ pub(super) fn aerodynamics<R: Real>(
     }
 }
 
-/// Integrals of the dynamic pressure q = ½ρ c u|u| along the span.
+/// Integrals along the span of q = ½ρ c u|u|, which is the dynamic pressure times the chord c.
 struct Pressure<R> {
-    /// Integral ∫ q dr for the force (N).
+    /// Integral ∫ q dr, to which the force is proportional (N).
     force: R,
-    /// Integral ∫ q X dr for the moment about the stroke axis (N·m).
+    /// Integral ∫ q X dr, to which the moment about the stroke axis is proportional (N·m).
     stroke: R,
-    /// Integral ∫ q c d_cp dr for the moment about the span axis (N·m).
+    /// Integral ∫ q c d_cp dr, to which the moment about the span axis is proportional (N·m).
     pitch: R,
 }
 
@@ -114,7 +116,8 @@ fn uniform_flow<R: Real>(
     }
 }
 
-/// Returns a quadratic form, given the `factors` and the `products` of the variables.
+/// Returns a quadratic form of two variables: the sum of three `factors` times the `products` of the
+/// variables.
 #[inline(always)]
 fn form<R: Real>(factors: [R; 3], products: [R; 3]) -> R {
     factors[0] * products[0] + factors[1] * products[1] + factors[2] * products[2]
@@ -127,8 +130,8 @@ fn form<R: Real>(factors: [R; 3], products: [R; 3]) -> R {
 /// ∫ q c d_cp dr = ½ (d_cp(+) + d_cp(−)) ∫ q c dr + ½ (d_cp(+) − d_cp(−)) ∫ |q| c dr     ∫ |q| c dr = ½ρA_w c̄ B_X
 /// ```
 ///
-/// When the flow past an element changes its direction, the velocity of the element is zero. The integrals therefore
-/// have no jumps and do not depend on a `side`.
+/// When the flow past an element changes its direction, the velocity of the element is zero. The integrals
+/// therefore do not jump, and do not depend on the side of a switching surface.
 #[inline(always)]
 fn blade_flow<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, [phi_dot, w]: [R; 2]) -> Pressure<R> {
     let sums = c.blades.sums(phi_dot, w);
@@ -144,8 +147,8 @@ fn blade_flow<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, [phi_dot, w]: 
     }
 }
 
-/// Returns the mean velocity ū of the wing (m/s) and the time derivative of ū (m/s²). The sign of ū is the direction of
-/// the aerodynamic forces.
+/// Returns the mean velocity ū of the wing (m/s) and the time derivative of ū (m/s²). The sign of ū
+/// determines the direction of the aerodynamic forces.
 ///
 /// ```text
 /// ū = (R/2 + x_r) φ̇ − ½ c(R/2) ψ̇ cos ψ
@@ -160,8 +163,8 @@ pub(super) fn mean_velocity<R: Real>(c: &Constants<R>, y: &[R; 4], dy: &[R; 4]) 
     [velocity, rate]
 }
 
-/// Returns the centre of pressure d_cp (chords) in a flow of direction `side`, Eq. (24). `c` selects the definition of
-/// the attack angle.
+/// Returns the centre of pressure d_cp (chords) if the flow has the direction `side`, which is +1 or −1,
+/// Eq. (24). The constants `c` select the definition of the attack angle.
 ///
 /// ```text
 /// d_cp = (0.82/π) α_d + 0.05
@@ -177,8 +180,8 @@ fn centre_of_pressure<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, side: 
     if harmonics { place + c.harmonics.pressure(attack * 2.0) } else { place }
 }
 
-/// Returns the mass matrix and the generalised forces without the force of the actuator, from Lagrange's equations,
-/// Eqs. (3)–(18).
+/// Returns the mass matrix and the generalised forces of Lagrange's equations, Eqs. (3)–(18), without the
+/// torque ΓV of the voltage.
 ///
 /// The added mass of Eqs. (28)–(30) is part of the mass matrix. The aerodynamic moments of Eq. (34) are part of the
 /// generalised forces.
@@ -191,7 +194,8 @@ fn centre_of_pressure<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, side: 
 /// Q₂ = −k_w ψ + m_s φ̇² s c − a₁₂ φ̇ψ̇ s + M_tr,x′ + M_rot
 /// ```
 ///
-/// In addition to the paper, damping moments proportional to φ̇ and ψ̇ are subtracted from Q₁ and Q₂.
+/// The paper contains no viscous damping. The function subtracts a moment proportional to φ̇ from Q₁, and a
+/// moment proportional to ψ̇ from Q₂.
 ///
 /// The Lagrangian form of the added mass adds ψ̇ e to Q₁ and −φ̇ e to Q₂, with e = (a₁₁ φ̇ c − a₁₂ ψ̇) s.
 #[inline(always)]
@@ -228,7 +232,7 @@ pub(super) fn balance_in<R: Real>(
     Balance { mass: [m11, m12, m22], stroke_moment: q1, pitch_moment: q2 }
 }
 
-/// Returns the gyroscopic moment e per rate (N·m·s).
+/// Returns e, the gyroscopic moment of the added mass per stroke rate or pitch rate (N·m·s).
 ///
 /// The Lagrangian form of the added mass adds e times the pitch rate to the moment of the stroke. The Lagrangian form
 /// subtracts e times the stroke rate from the moment of the pitch.
@@ -237,8 +241,9 @@ fn gyroscopic<R: Real>(c: &Constants<R>, [phi_dot, psi_dot]: &[R; 2], sin: R, co
     c.gyroscopic * (c.added.a11 * *phi_dot * cos - c.added.a12 * *psi_dot) * sin
 }
 
-/// Returns the force and the moments of the added mass, Eqs. (28)–(30), given the accelerations in `dy`. M_am,y″ is the
-/// chord moment, and M_am,x′ is the span moment.
+/// Returns the force and the moments of the added mass, Eqs. (28)–(30). The argument `dy` contains the
+/// accelerations. M_am,y″ is the moment about the chord's axis, and M_am,x′ is the moment about the span
+/// axis.
 ///
 /// ```text
 /// A = φ̈ cos ψ − φ̇ψ̇ sin ψ
@@ -255,13 +260,14 @@ pub(super) fn added_mass<R: Real>(c: &Constants<R>, sin: R, cos: R, dy: &[R; 4])
     }
 }
 
-/// Returns the lift (N), positive upwards, Eq. (35) with corrected sign: F_tr,Lift − F_am sin ψ.
+/// Returns the lift (N), positive upwards, Eq. (35). With the corrected sign, the lift is F_tr,Lift − F_am
+/// sin ψ.
 #[inline(always)]
 pub(super) fn lift<R: Real>(c: &Constants<R>, air: &Aerodynamics<R>, added: &NormalLoad<R>, sin: R) -> R {
     air.lift - c.lift_sign * added.force * sin
 }
 
-/// Returns the load of the air on the wing.
+/// Returns the aerodynamic force and moment on the wing.
 ///
 /// The force of the added mass acts along the wing's normal, which is (cos ψ e_t − sin ψ e_z):
 ///
@@ -291,8 +297,8 @@ pub(super) fn load<R: Real>(
     }
 }
 
-/// Returns the current j_A into the actuator (A), Eq. (39) with the reciprocal coupling: C_p V̇ + Γ φ̇. The current of
-/// the dielectric loss is not included.
+/// Returns the current j_A = C_p V̇ + Γ φ̇ into the actuator (A), Eq. (39). By reciprocity, Γ is also the
+/// torque per voltage. The current of the dielectric loss is not included.
 #[inline(always)]
 pub(super) fn current<R: Real>(c: &Constants<R>, drive: &Wave<R>, phi_dot: R) -> R {
     c.c_p * drive.rate + c.gamma * phi_dot

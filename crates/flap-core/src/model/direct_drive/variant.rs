@@ -4,14 +4,14 @@ use super::params::FlowDirection;
 use crate::drive::Drive;
 use crate::model::Terms;
 
-/// Variant of the direct-drive model: the choices that select the form of the equations.
+/// Variant of the direct-drive model: the options that select the form of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DirectDrive {
     /// Drive of the wing: a voltage, or a prescribed stroke.
     pub drive: Drive,
-    /// Direction of the air flow over the wing while the wing reverses.
+    /// One direction of the air flow for the whole wing, or one direction for each blade element.
     pub flow: FlowDirection,
-    /// Terms that the paper leaves out.
+    /// Terms of the equations that the paper leaves out.
     pub terms: Terms,
 }
 

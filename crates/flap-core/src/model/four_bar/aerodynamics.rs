@@ -1,4 +1,4 @@
-//! Forces and moments of the air on the wing of the four-bar model.
+//! Aerodynamic forces and moments on the wing of the four-bar model.
 //!
 //! The equations are Eqs. (5)–(10) and (16)–(18) of Arabagi, Hines and Sitti 2013, with the corrections listed in
 //! `docs/models/four-bar.md`. Lift is positive upwards. Q_θ is the moment about the stroke axis, and Q_φ the moment
@@ -11,12 +11,13 @@ use crate::aero::NormalLoad;
 use crate::model::Load;
 use crate::num::Real;
 
-/// Forces and moments of the air on a wing that translates and rotates.
+/// Aerodynamic forces and moments on a wing that translates and rotates.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Aerodynamics<R> {
     /// Translational lift L_t (N), Eq. (5).
     pub(super) lift: R,
-    /// Translational drag (N), Eq. (5): the horizontal force, positive if it acts against a motion with θ̇ > 0.
+    /// Translational drag (N), Eq. (5). The drag is a horizontal force, and is positive if it acts against a
+    /// motion with θ̇ > 0.
     pub(super) drag: R,
     /// Moment of the translational drag about the stroke axis (N·m), Eq. (16).
     pub(super) stroke_moment: R,
@@ -25,8 +26,8 @@ pub(super) struct Aerodynamics<R> {
     pub(super) lift_moment: R,
     /// Moment of translational lift and drag about the rotation axis (N·m), Eqs. (16) and (17).
     pub(super) pitch_moment: R,
-    /// Rotational force, Eqs. (6) and (18). The lift L_r of the rotational force is the force times sin φ. The moment
-    /// Q_φ about the rotation axis is minus the span moment.
+    /// Rotational force, Eqs. (6) and (18). The lift L_r of the rotational force is the force times sin φ.
+    /// The moment Q_φ of the rotational force about the rotation axis is minus the span moment.
     pub(super) rotation: NormalLoad<R>,
 }
 
@@ -38,7 +39,7 @@ impl<R: Real> Aerodynamics<R> {
     }
 }
 
-/// Returns the rotational force for `rotation` = −|φ̇|φ̇ (rad²/s²).
+/// Returns the rotational force on the wing. The argument `rotation` is −|φ̇|φ̇ (rad²/s²).
 #[inline(always)]
 pub(super) fn rotational_force<R: Real>(air: &Air<R>, rotation: R) -> NormalLoad<R> {
     NormalLoad {
@@ -51,13 +52,14 @@ pub(super) fn rotational_force<R: Real>(air: &Air<R>, rotation: R) -> NormalLoad
 /// Angles of the wing on which the aerodynamic coefficients depend.
 #[derive(Clone, Copy, Debug)]
 struct Attitude<R> {
-    /// Attack angle B, folded into [0, π/2].
+    /// Attack angle B of the wing, in the range [0, π/2].
     attack: R,
     /// Angle τ between the chord and the vertical, in [−π/2, π/2]: τ = arcsin sin φ.
     tilt: R,
 }
 
-/// Returns the folded attack angle B and the inclination τ of the chord at the pitch `phi`. `side` is σ = sign tan φ.
+/// Returns the attack angle B, in the range [0, π/2], and the inclination τ of the chord at the pitch `phi`.
+/// `side` is σ = sign tan φ.
 ///
 /// ```text
 /// φ = φ_m + kπ     B = π/2 − σφ_m     τ = (−1)^k φ_m
@@ -73,13 +75,13 @@ fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
     Attitude { attack: -(side * phi_m) + FRAC_PI_2, tilt: (odd * -2.0 + 1.0) * phi_m }
 }
 
-/// Returns the lift coefficient, Eq. (9), and the drag coefficient, Eq. (10), at the folded attack angle B (rad).
+/// Returns the lift coefficient, Eq. (9), and the drag coefficient, Eq. (10), at the attack angle B (rad).
 ///
 /// ```text
 /// C_l = 0.225 + 1.58 sin(2.13 B − 7.2°)     C_d = 1.92 − 1.55 cos(2.04 B − 9.82°)
 /// ```
 ///
-/// With `harmonics`, the coefficients contain the further terms of the attack angle.
+/// If `harmonics` is true, the coefficients also contain the terms of `aero::Harmonics`.
 #[inline(always)]
 pub(super) fn coefficients<R: Real>(c: &Air<R>, harmonics: bool, attack: R) -> [R; 2] {
     let [lift_offset, lift_amplitude, lift_slope, lift_phase] = c.lift;
@@ -103,10 +105,11 @@ pub(super) fn coefficients<R: Real>(c: &Air<R>, harmonics: bool, attack: R) -> [
 /// d_cp = (0.82/π)(π/2 + sτ) + 0.05     q = ½ρ U² c Δr
 /// ```
 ///
-/// For both directions of flow, the values of |α| add up to π, so all strips have the same C_l, C_d and B. The function
-/// substitutes d_cp and computes the sums Σ c q s and Σ c q. The sum Σ c q is a quadratic form of the rates. With
-/// `harmonics`, C_l, C_d and d_cp contain the further terms of the attack angle. The further terms of d_cp are
-/// proportional to s.
+/// The values of |α| for the two directions of flow add up to π. The coefficients C_l and C_d and the angle B
+/// are therefore equal for all strips. The function inserts the formula of d_cp into Q_φ, which leads to the
+/// sums Σ c q s and Σ c q. The sum Σ c q is a quadratic form of the stroke rate and the pitch rate. If
+/// `harmonics` is true, C_l, C_d and d_cp also contain the terms of `aero::Harmonics`. In d_cp, these terms
+/// are proportional to s.
 #[inline(always)]
 pub(super) fn aerodynamics<R: Real>(
     c: &Constants<R>,
@@ -142,20 +145,21 @@ pub(super) fn aerodynamics<R: Real>(
     }
 }
 
-/// Returns the switching function sin 2φ and its rate. The sign σ of the switching function is the `side`, with σ =
-/// sign tan φ. The lift coefficient C_l changes its sign when σ changes.
+/// Returns the switching function sin 2φ and its time derivative. The side of the switching surface is σ, the
+/// sign of the switching function, which equals the sign of tan φ. The lift coefficient C_l changes its sign
+/// when σ changes.
 ///
-/// At φ = 0 the chord is vertical, and C_l jumps between −C_l(90°) and C_l(90°). The lift jumps, but the equations of
-/// motion do not jump, because the equations contain C_l times sin φ. At |φ| = 90°, C_l jumps between −C_l(0) and
-/// C_l(0), and the equations of motion jump too.
+/// At φ = 0 the chord is vertical, and C_l jumps between −C_l(90°) and C_l(90°). The lift therefore jumps.
+/// The equations of motion do not jump at φ = 0, because they contain C_l only multiplied by sin φ. At |φ| =
+/// 90°, C_l jumps between −C_l(0) and C_l(0), and the equations of motion jump too.
 #[inline(always)]
 pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
     let (sin, cos) = (phi * 2.0).sin_cos();
     [sin, phi_dot * 2.0 * cos]
 }
 
-/// Returns the load of the air on the wing at a state with derivative `dy`, on the given `side` of the switching
-/// surface.
+/// Returns the aerodynamic force and moment on the wing at the state `y` with the derivative `dy`, on the
+/// given `side` of the switching surface.
 ///
 /// Rotational force and added mass act along the wing's normal, which is (cos φ e_t + sin φ e_z). The normal
 /// acceleration of a strip is r A + κc φ̈, with A = θ̈ cos φ − θ̇φ̇ sin φ:
@@ -164,9 +168,10 @@ pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
 /// N = L_r/sin φ − Σ m_a (r A + κc φ̈)     L = L_t + N sin φ     D = D_t − N cos φ     m_a = π/4 ρ c²Δr
 /// ```
 ///
-/// The moments of lift and drag are the same sums with the additional factor r. The span moment M_s is −Q_φ, because a
-/// positive φ moves the trailing edge in the direction of the stroke. In M_s, the sums of the added mass have the
-/// additional factor κc. In the equations of motion, the added mass acts at the centre of mass of the wing, Eq. (19).
+/// The moments of lift and drag are the same sums with the additional factor r. The span moment M_s is −Q_φ,
+/// because a positive φ moves the trailing edge in the direction of the stroke. In M_s, the sums of the added
+/// mass have the additional factor κc. Here κc is the distance c/2 − z_RA of Eq. (7). In the equations of
+/// motion, the added mass acts at the centre of mass of the wing, Eq. (19).
 #[inline(always)]
 pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
     let (sin, cos) = y[1].sin_cos();
@@ -175,7 +180,7 @@ pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) 
     load_in(c, &air, y, [normal, dy[3]], [sin, cos])
 }
 
-/// Returns the load of the air, as [`load`], for the given aerodynamic forces and moments, and the accelerations [A,
+/// Computes the same load as [`load`], given the aerodynamic forces and moments, and the accelerations [A,
 /// φ̈].
 #[inline(always)]
 pub(super) fn load_in<R: Real>(
@@ -199,7 +204,8 @@ pub(super) fn load_in<R: Real>(
     }
 }
 
-/// Returns the lift L_a of the added mass (N), Eq. (7) with corrected sign, given the accelerations in `dy`.
+/// Returns the lift L_a of the added mass (N), Eq. (7) with corrected sign. The argument `dy` contains the
+/// accelerations.
 ///
 /// ```text
 /// L_a = −(AM₁ (θ̈ cos φ − θ̇φ̇ sin φ) + AM₂ φ̈) sin φ

@@ -1,4 +1,4 @@
-//! Constants of the four-bar model, computed once per point.
+//! Constants of the four-bar model, which flap computes once for each design point.
 //!
 //! Equation numbers refer to Arabagi, Hines and Sitti (2013). Equations in brackets are missing from the printed paper
 //! and were reconstructed (see `docs/models/four-bar.md`).
@@ -16,95 +16,104 @@ use crate::piezo::{Laminate, Layer};
 use crate::springs::{Stiffening, structural_damping};
 
 crate::per_lane! {
-    /// The actuator in series with a spring.
+    /// Constants of the actuator and of the spring that is in series with the actuator.
     pub struct Actuator<R> {
-        /// Stiffness k_eff of the actuator and the series spring together (N/m).
+        /// Stiffness k_eff of the series connection of actuator and spring (N/m).
         pub stiffness: R,
-        /// Deflection γ of the free tip per voltage (m/V).
+        /// Deflection γ of the actuator's tip without load, per voltage (m/V).
         pub deflection: R,
         /// Voltage V_ref at which the actuator exerts no force at zero stroke (V).
         pub rest_voltage: R,
         /// 1/k_sc (m/N).
         pub series_compliance: R,
-        /// Charge per deflection of the tip Γ (C/m).
+        /// Charge Γ of the actuator per deflection of its tip (C/m).
         pub coupling: R,
         /// Capacitance C_b of the actuator with a blocked tip (F).
         pub capacitance: R,
-        /// Equivalent conductance of the dielectric loss (S).
+        /// Conductance that represents the dielectric loss of the actuator (S).
         pub conductance: R,
-        /// Share, recovered by the supply, of the power that the actuator returns.
+        /// Fraction, from 0 to 1, of the power returned by the actuator that the power supply recovers.
         pub charge_recovery: R,
         /// Equivalent mass m_eff of the actuator at its tip (kg).
         pub mass: R,
-        /// Thickness of the piezoelectric layer h_p (m).
+        /// Thickness h_p of the piezoelectric layer (m).
         pub piezo_thickness: R,
     }
 }
 
 crate::per_lane! {
-    /// Inertia of the wing with the added mass of Eq. (19), and the damping and stiffness of its joints.
+    /// Inertia of the wing including the added mass of Eq. (19), and the damping and stiffness of its joints.
     pub struct Wing<R> {
-        /// Inertia m R² of the mass at the distance R from the stroke axis (kg·m²).
+        /// Moment of inertia m R² about the stroke axis, where R is the distance of the centre of mass from
+        /// this axis (kg·m²).
         pub upright: R,
-        /// m β² + J_yy: inertia of the stroke proportional to sin²φ (kg·m²).
+        /// Part of the stroke's moment of inertia that is multiplied by sin²φ: m β² + J_yy (kg·m²).
         pub j_sin: R,
-        /// J_zz: inertia of the stroke proportional to cos²φ (kg·m²).
+        /// Part of the stroke's moment of inertia that is multiplied by cos²φ: J_zz (kg·m²).
         pub j_cos: R,
-        /// Coupling of stroke and pitch P = m R β + J_xz (kg·m²).
+        /// Inertial coupling P = m R β + J_xz of stroke and pitch (kg·m²).
         pub coupling: R,
-        /// Pitch inertia J_φ = m β² + J_xx (kg·m²).
+        /// Moment of inertia J_φ = m β² + J_xx of the pitch (kg·m²).
         pub j_pitch: R,
         /// Difference of two moments of inertia, J_d = m β² + J_yy − J_zz (kg·m²).
         pub j_difference: R,
-        /// Damping of the stroke D (N·m·s).
+        /// Viscous damping D of the stroke (N·m·s).
         pub stroke_damping: R,
-        /// Viscous damping at the slider-crank that is equivalent to the loss factor of actuator and series spring
+        /// Viscous damping at the slider-crank, equivalent to the loss factor of actuator and series spring
         /// (N·s/m).
         pub spring_damping: R,
-        /// Damping of the hinge d (N·m·s).
+        /// Viscous damping d of the hinge (N·m·s).
         pub hinge_damping: R,
-        /// Strain of the hinge per pitch angle (1/rad); zero if the dimensions of the hinge are not set.
+        /// Strain of the hinge's flexure per pitch angle (1/rad), or zero if the dimensions of the hinge are
+        /// not set.
         pub hinge_strain: R,
-        /// Stiffness of the hinge k_rot (N·m/rad).
+        /// Rotational stiffness k_rot of the hinge (N·m/rad).
         pub hinge_stiffness: R,
     }
 }
 
 crate::per_lane! {
-    /// Aerodynamic coefficients, and moments of the wing's shape.
+    /// Aerodynamic coefficients of the wing, and integrals over the shape of the wing.
     pub struct Air<R> {
-        /// Constants of the lift coefficient, Eq. (9): constant term, amplitude of the sine, factor of the attack
-        /// angle, and subtracted angle (rad).
+        /// Constants of the lift coefficient, Eq. (9): constant term, amplitude of the sine, factor of the
+        /// attack angle, and the angle that is subtracted (rad).
         pub lift: [R; 4],
-        /// Constants of the drag coefficient, Eq. (10): constant term, amplitude of the cosine, factor of the attack
-        /// angle, and subtracted angle (rad).
+        /// Constants of the drag coefficient, Eq. (10): constant term, amplitude of the cosine, factor of the
+        /// attack angle, and the angle that is subtracted (rad).
         pub drag: [R; 4],
-        /// Arm of the centre of pressure at an attack angle of 90°, in chords, Eq. (17).
+        /// Lever arm of the centre of pressure about the rotation axis at an attack angle of 90°, in chords,
+        /// Eq. (17).
         pub pressure_upright: R,
         /// Shift of the centre of pressure per radian of attack angle, in chords, Eq. (17).
         pub pressure_slope: R,
-        /// Further terms of the force coefficients and of the centre of pressure.
+        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
         pub harmonics: Harmonics<R>,
         /// Factors of θ̇², θ̇φ̇cosφ and (φ̇cosφ)² in the sum Σ c ½ρU²cΔr (kg·m²).
         pub chord: [R; 3],
 
-        /// Rotational force, divided by |φ̇|φ̇ (kg·m), Eq. (6): ½C_rotρ I₁ Σ c³Δr.
+        /// Rotational force, divided by −|φ̇|φ̇ (kg·m), Eq. (6): ½C_rotρ I₁ Σ c³Δr.
         pub rotation_force: R,
-        /// Moment of the rotational force about the stroke axis, divided by |φ̇|φ̇ (kg·m²): ½C_rotρ I₁ Σ rc³Δr.
+        /// Moment of the rotational force about the stroke axis at φ = 0, divided by −|φ̇|φ̇ (kg·m²): ½C_rotρ
+        /// I₁ Σ rc³Δr.
         pub rotation_stroke: R,
-        /// Moment of the rotational force about the rotation axis, divided by |φ̇|φ̇ (kg·m²), Eq. (18): ½C_rotρ I₂ Σ
-        /// c⁴Δr.
+        /// Moment of the rotational force about the rotation axis, divided by −|φ̇|φ̇ (kg·m²), Eq. (18):
+        /// ½C_rotρ I₂ Σ c⁴Δr.
         pub rotation_pitch: R,
 
-        /// Added-mass force per acceleration of the stroke (kg·m), Eq. (7).
+        /// Force of the added mass against the stroke acceleration, divided by this acceleration (kg·m),
+        /// Eq. (7).
         pub added_stroke: R,
-        /// Added-mass force per acceleration of the pitch (kg·m), Eq. (7).
+        /// Force of the added mass against the pitch acceleration, divided by this acceleration (kg·m),
+        /// Eq. (7).
         pub added_pitch: R,
-        /// Moment of the added mass about the shoulder per acceleration of the stroke (kg·m²): π/4 ρ Σ r²c²Δr.
+        /// Moment of the added mass about the shoulder, divided by the stroke acceleration (kg·m²): π/4 ρ Σ
+        /// r²c²Δr.
         pub added_stroke_2: R,
-        /// Moment of the added mass about the shoulder per acceleration of the pitch (kg·m²): π/4 ρ Σ r κc³Δr.
+        /// Moment of the added mass about the shoulder, divided by the pitch acceleration (kg·m²): π/4 ρ Σ r
+        /// κc³Δr. Here κc is the distance c/2 − z_RA of Eq. (7).
         pub added_pitch_1: R,
-        /// Moment of the added mass about the rotation axis per acceleration of the pitch (kg·m²): π/4 ρ Σ κ²c⁴Δr.
+        /// Moment of the added mass about the rotation axis, divided by the pitch acceleration (kg·m²): π/4 ρ
+        /// Σ κ²c⁴Δr. Here κc is the distance c/2 − z_RA of Eq. (7).
         pub added_span: R,
     }
 }
@@ -112,7 +121,7 @@ crate::per_lane! {
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Constants of the drive: the voltage, or the prescribed stroke.
+        /// Constants of the drive, which is a voltage or a prescribed stroke.
         pub drive: DriveConstants<R>,
         /// Actuator and series spring.
         pub actuator: Actuator<R>,
@@ -130,7 +139,7 @@ crate::per_lane! {
         pub strips: Strips<R, MAX_STRIPS>,
         /// Rotational circulation of the strips.
         pub circulation: Circulation<R>,
-        /// Nonlinear parts of the springs.
+        /// Nonlinear terms of the springs of stroke and hinge.
         pub stiffening: Stiffening<R>,
         /// Motion of the body.
         pub moving: Moving<R>,
@@ -138,7 +147,7 @@ crate::per_lane! {
 }
 
 impl Constants<f64> {
-    /// Returns the constants of a point, with the body at rest.
+    /// Returns the constants of a design point for a body at rest.
     ///
     /// # Errors
     /// - The four-bar has no neutral position, or cannot be assembled in this position.
@@ -186,11 +195,11 @@ impl Constants<f64> {
     }
 }
 
-/// Returns the constants of actuator and series spring, Eqs. [(1), (2)], at the angular frequency `rate` (rad/s).
+/// Returns the constants of actuator and series spring at the angular drive frequency `rate` (rad/s), from
+/// the reconstructed Eqs. (1) and (2).
 ///
-/// The deflection δ of the unimorph's tip is δ = γV − F/k_a (Smits and Choi 1991).
-/// The factor 33/140 of the effective mass is the one of a cantilever that bends as under a force at its tip (Rayleigh's
-/// method).
+/// The deflection δ of the unimorph's tip is δ = γV − F/k_a (Smits and Choi 1991). The factor 33/140 of the
+/// effective mass is the result of Rayleigh's method for a cantilever with a force at its tip.
 ///
 /// ```text
 /// k_a = 3 S w / L³     γ = E_p d₃₁ (z_p − z_c) L² / (2S)     Γ = k_a γ     m_eff = 33/140 w L Σ ρᵢ hᵢ
@@ -240,8 +249,9 @@ fn four_bar(p: &Params) -> Result<FourBarLinkage<f64>, Invalid> {
     })
 }
 
-/// Returns the inertias of uniform links. The inertia of a link with a fixed pivot is the inertia about the pivot, and
-/// the inertia of the coupler is about its centre.
+/// Returns the moments of inertia of the links. Links whose inertia is not set are uniform rods. The inertias
+/// of the input link and the output link are about their fixed pivots. The inertia of the coupler is about
+/// its centre.
 fn link_inertias(p: &Params) -> LinkInertias<f64> {
     let about_centre =
         |given: Option<f64>, mass: f64, length: f64| given.unwrap_or(mass * length * length / 12.0);
@@ -256,8 +266,8 @@ fn link_inertias(p: &Params) -> LinkInertias<f64> {
     }
 }
 
-/// Returns the inertia of the wing with the added mass at the centre of mass, Eqs. (13) and (19), and the damping of
-/// the joints.
+/// Returns the inertia of the wing with the added mass at the centre of mass, Eqs. (13) and (19). The result
+/// also contains the damping and stiffness of the joints.
 ///
 /// `rate` is the angular frequency of the drive (rad/s), and `spring` is the stiffness of actuator and series spring at
 /// the slider-crank (N/m).

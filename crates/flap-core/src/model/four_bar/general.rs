@@ -1,11 +1,12 @@
 //! The equations of the four-bar model with the terms that the paper leaves out.
 //!
-//! The terms are motion of the body, further terms of the attack angle, rotational circulation, and nonlinear springs.
-//! If all these terms are zero, [`super::rhs`] computes the same derivatives, apart from rounding errors.
+//! The additional terms are motion of the body, higher harmonics of the attack angle, rotational circulation,
+//! and nonlinear springs. If all additional terms are zero, [`super::rhs`] computes the same derivatives as
+//! this module, apart from rounding errors.
 //!
-//! On a moving body, each strip has its own direction of flow, and the lift of each strip jumps at a different time.
-//! The functions for the forces of the air are compiled out of line, so that the terms need no computing time if they
-//! are zero.
+//! On a moving body, each strip has its own direction of flow, and the lift of each strip jumps at a
+//! different time. The aerodynamic functions of this module are not inlined into other equations. The
+//! additional terms therefore need no computing time if they are zero.
 //!
 //! The pitch ψ in [`crate::body`] has the opposite sign of the pitch φ in this model: ψ = −φ.
 
@@ -22,14 +23,14 @@ use crate::model::stroke_and_pitch::Balance;
 use crate::num::{Lanes, Real};
 use crate::ode::step::Attempt;
 
-/// Limit of |u_C|/U: below this limit, the `side` of the switching surface determines the direction of the flow along
-/// the chord.
+/// Limit of |u_C|/U. Below this limit, the `side` of the switching surface determines the direction of the
+/// flow along the chord.
 const GRAZING: f64 = 1e-9;
 
-/// Returns the sign of u_C, the direction of the flow along the chord.
+/// Returns the sign of u_C, which is the direction of the flow along the chord.
 ///
-/// On the switching surface, u_C is zero apart from rounding errors. The function then returns the sign of −σ u_N, see
-/// [`side_of`](super::aerodynamics::side_of).
+/// On the switching surface, u_C is zero apart from rounding errors. If u_C is almost zero, the function
+/// returns the sign of −σ u_N (see [`side_of`](super::aerodynamics::side_of)).
 #[inline(always)]
 fn direction<R: Real>(side: R, flow: &Flow<R>) -> R {
     let Flow { normal, chordwise, speed } = *flow;
@@ -37,15 +38,15 @@ fn direction<R: Real>(side: R, flow: &Flow<R>) -> R {
     side.lit(1.0).copysign(R::select(grazes, -(side * normal), chordwise))
 }
 
-/// Returns the forces along normal and chord, divided by the weight of the strip (m²/s²), with the coefficients of Eqs.
-/// (9) and (10). Returns the centre of pressure, too (chords).
+/// Returns the forces on a strip along the normal and the chord, divided by ½ρcΔr (m²/s²), with the
+/// coefficients of Eqs. (9) and (10). The second result is the centre of pressure (chords).
 ///
 /// ```text
 /// F_N = U (C_l s u_C sign u_N + C_d u_N)     F_C = U (C_l s |u_N| − C_d u_C)     s = sign u_C
 /// ```
 ///
-/// If the `direction` s stays constant, both forces are smooth at u_C = 0. If s changes its sign, the force along the
-/// chord jumps.
+/// As long as the `direction` s is constant, F_N and F_C are smooth at u_C = 0. If s changes its sign, the
+/// force F_C along the chord jumps.
 #[inline(always)]
 fn law<R: Real>(c: &Constants<R>, direction: R, flow: &Flow<R>) -> ([R; 2], R) {
     let Flow { normal, chordwise, speed } = *flow;
@@ -61,12 +62,12 @@ fn law<R: Real>(c: &Constants<R>, direction: R, flow: &Flow<R>) -> ([R; 2], R) {
     ([speed * normal_force, speed * chord_force], pressure)
 }
 
-/// Motion of a wing and of its sections at a state.
+/// Motion of a wing and of its sections at one state of the model.
 #[derive(Clone, Copy)]
 struct Motion<R> {
     stroke: R,
     shoulder: Shoulder<R>,
-    /// Stroke rate φ̇ and pitch rate ψ̇, as in [`crate::body`].
+    /// Stroke rate φ̇ and pitch rate ψ̇, with the signs of the module [`crate::body`].
     rates: [R; 2],
     sections: Sections<R>,
     /// Sine and cosine of ψ.
@@ -100,7 +101,8 @@ impl<R: Real> Motion<R> {
         rate.abs() * rate
     }
 
-    /// Returns the forces and moments of the air without the added mass, given the [`direction`] of the flow past each strip.
+    /// Returns the aerodynamic forces and moments without the added mass, given the [`direction`] of the flow
+    /// past each strip.
     #[inline(always)]
     fn aerodynamics(
         &self,
@@ -127,21 +129,21 @@ impl<R: Real> Motion<R> {
         }
     }
 
-    /// Returns the load of the rotational circulation.
+    /// Returns the force and the moments of the rotational circulation.
     #[inline(always)]
     fn circulation(&self, c: &Constants<R>) -> NormalLoad<R> {
         c.circulation.load(&self.sections, self.shoulder.pitch_rate(self.rates[1]), self.pitch)
     }
 
-    /// Returns the part of the lift of the added mass that is due to the motion of the body.
+    /// Returns the part of the added-mass lift that is due to the motion of the body (N).
     #[inline(always)]
     fn added_mass_lift(&self, c: &Constants<R>) -> R {
         let [e_0, e_1, e_2] = self.shoulder.accelerations(self.rates, self.pitch);
         (c.air.added_stroke * e_1 - c.air.added_pitch * e_2 + c.moving.added * e_0) * self.pitch[0]
     }
 
-    /// Returns the force and torque of the air on the wing. The part due to the added mass includes the normal accelerations of
-    /// [`Shoulder::accelerations`].
+    /// Returns the aerodynamic force and moment on the wing. The forces of the added mass include the normal
+    /// accelerations of [`Shoulder::accelerations`].
     #[inline(always)]
     fn load(&self, c: &Constants<R>, air: &Aerodynamics<R>, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
         let [e_0, e_1, e_2] = self.shoulder.accelerations(self.rates, self.pitch);
@@ -161,7 +163,8 @@ impl<R: Real> Motion<R> {
     }
 }
 
-/// Returns the motion of the wing at a state, and the forces and moments of the air without the added mass.
+/// Returns the motion of the wing at the state `y`, and the aerodynamic forces and moments without the added
+/// mass.
 #[inline(always)]
 fn motion_in_air<R: Real>(
     c: &Constants<R>,
@@ -197,18 +200,18 @@ fn motion_in_air_inlined<R: Real>(
     (motion, Aerodynamics { rotation, ..air })
 }
 
-/// Returns the forces and moments of the air without the added mass.
+/// Returns the aerodynamic forces and moments on the wing without the added mass.
 ///
-/// The second result is the part of the lift of the added mass that is due to the motion of the body.
+/// The second result is the part of the added-mass lift that is due to the motion of the body (N).
 #[inline(always)]
 pub(super) fn air<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 4]) -> (Aerodynamics<R>, R) {
     let (motion, air) = motion_in_air(c, model.terms.body == BodyTerms::All, side, y);
     (air, motion.added_mass_lift(c))
 }
 
-/// Returns the mass matrix and the generalised forces. The forces include the nonlinear moments of the springs, and the
-/// inertial moments that result from the rotation of the body. The added mass is part of the mass of the wing, which
-/// does not depend on the velocity of the body.
+/// Returns the mass matrix and the generalised forces. The generalised forces include the nonlinear moments
+/// of the springs, and the inertial moments that result from the rotation of the body. The mass matrix
+/// includes the added mass, and does not depend on the velocity of the body.
 #[inline(always)]
 pub(super) fn balance<R: Real>(
     c: &Constants<R>,
@@ -229,14 +232,15 @@ pub(super) fn balance<R: Real>(
     }
 }
 
-/// Returns the load of the air at a state with derivative `dy`.
+/// Returns the aerodynamic force and moment on the wing at the state `y` with the derivative `dy`.
 #[inline(always)]
 pub(super) fn load<R: Real>(c: &Constants<R>, model: &FourBar, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
     let (motion, air) = motion_in_air(c, model.terms.body != BodyTerms::None, side, y);
     motion.load(c, &air, y, dy)
 }
 
-/// Number of steps in the search for the time of a jump, by regula falsi with the Illinois rule.
+/// Number of iterations in the search for the time of a jump. The search uses regula falsi with the Illinois
+/// rule.
 const SEARCH: usize = 5;
 
 /// Nodes and weights of the Gauss-Legendre rule on [0, 1].
@@ -257,12 +261,12 @@ fn motion_within<R: Real>(
 
 /// Returns the time integral of the load at the shoulder over a step.
 ///
-/// The first integral assumes that the direction of the flow past each strip does not change within the step, so that
-/// the load is smooth. If the flow past a strip changes its direction, the integral of the change of the load is added
-/// for the time of reversed flow.
+/// First, the function integrates a smooth load: it assumes that the flow past each strip does not change its
+/// direction within the step. If the flow past a strip reverses within the step, the function adds the
+/// integral of the load change over the time of reversed flow.
 ///
-/// `state` converts the integrated state at a time to the state of the wing, and `slope` converts the derivative of the
-/// state.
+/// The function `state` converts the integrated state at a time to the state of the wing. The function
+/// `slope` converts the derivative of the integrated state.
 #[inline(always)]
 pub(super) fn impulse<R: Lanes>(
     c: &Constants<R>,
@@ -336,14 +340,16 @@ pub(super) fn impulse<R: Lanes>(
     sums
 }
 
-/// Number of parts into which a step is divided, so that the flow past a strip reverses at most once in each part.
+/// Number of parts into which each step is divided. The search for jumps assumes that the flow past a strip
+/// reverses at most once in each part.
 const PARTS: usize = 4;
 
-/// Returns the interval of a part of a step in which the flow is reversed, in fractions of the step. The interval is empty
-/// if the flow is not reversed.
+/// Returns the interval within one part of a step in which the flow is reversed, as fractions of the step. If
+/// the flow is not reversed, the interval is empty.
 ///
-/// The part begins at the fraction `begin` of the step. `f_low` and `f_high` are the components of the flow in its
-/// initial direction at both ends of the part. `value` returns this component at a fraction of the step.
+/// The part begins at the fraction `begin` of the step. `f_low` and `f_high` are the flow components along
+/// the initial direction of the flow, at the beginning and at the end of the part. The function `value`
+/// returns the same flow component at a given fraction of the step.
 #[inline(always)]
 fn reversed<R: Lanes>(begin: f64, [mut f_low, mut f_high]: [R; 2], value: impl Fn(R) -> R) -> [R; 2] {
     let (zero, one) = (f_low.lit(0.0), f_low.lit(1.0));

@@ -1,4 +1,4 @@
-//! The four-bar model: equations of motion, signals, columns of rows, and single motions.
+//! The four-bar model: equations of motion, signals, columns of the results, and experiments such as chirps.
 
 use super::aerodynamics::{added_mass_lift, aerodynamics, load, side_of};
 use super::constants::Constants;
@@ -92,10 +92,12 @@ impl Ode<4> for FourBar {
         self.drive.at(&c.drive, t)
     }
 
-    /// The equations of motion hardly jump (see `side_of`), but the lift does. A mean over a step that contains the
-    /// jump is inaccurate. On 816 points of the 75 Hz system at rtol 1e-6, locating the jump costs 7 % more
-    /// right-hand sides. It reduces the error of the mean lift, relative to its components, from 9e-4 (median) and
-    /// 2e-2 (largest) to 7e-7 and 1e-5. Every point settles; without it, a few in a thousand do not.
+    /// At the switching surface, the lift jumps, while the equations of motion hardly jump (see `side_of`).
+    /// The mean lift over a step that contains a jump is inaccurate. On 816 points of the 75 Hz system at
+    /// rtol 1e-6, the search for the jumps needs 7 % more evaluations of the right-hand side. The search
+    /// reduces the median error of the mean lift from 9e-4 to 7e-7, and the largest error from 2e-2 to 1e-5.
+    /// These errors are relative to the components of the lift. With the search, every point settles. Without
+    /// the search, a few points in a thousand do not settle.
     const SWITCHES: bool = true;
 
     #[inline(always)]
@@ -110,7 +112,7 @@ impl Ode<4> for FourBar {
 
     const HAS_PLAIN: bool = true;
 
-    /// Returns true if the equations of motion contain no terms of `general`.
+    /// Returns true if the equations of motion need no terms of the module `general`.
     #[inline(always)]
     fn is_plain(&self) -> bool {
         self.terms.is_plain()
@@ -128,7 +130,8 @@ impl Ode<4> for FourBar {
 }
 
 impl FourBar {
-    /// Returns the derivative of the state; without the code of `general` if `PLAIN`.
+    /// Returns the time derivative of the state. If `PLAIN` is true, the function contains no code of the
+    /// module `general`.
     #[inline(always)]
     fn derivative<R: Real, const PLAIN: bool>(
         &self,
@@ -151,7 +154,8 @@ impl FourBar {
         }
     }
 
-    /// Returns the signals at an instant; without the code of `general` if `PLAIN`.
+    /// Returns the signals at one instant. If `PLAIN` is true, the function contains no code of the module
+    /// `general`.
     #[inline(always)]
     fn signals_at<R: Real, const PLAIN: bool>(
         &self,
@@ -206,10 +210,10 @@ impl FourBar {
     }
 }
 
-/// Returns the parameters that depend on the wing.
+/// Returns the parameters that depend on a user-defined wing.
 ///
-/// The model's axis is at the same fraction of the chord along the whole span: the fraction of the wing's area
-/// ahead of the axis.
+/// In the model, the rotation axis is at the same fraction of the chord along the whole span. For a
+/// user-defined wing, this fraction is the part of the wing's area that is ahead of the axis.
 fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
     let before = wing.outline.integral(|_, leading, _| leading);
     let mut found = vec![("wing_offset", wing.offset), ("wing_length", wing.outline.length())];
@@ -288,8 +292,8 @@ impl Model<4> for FourBar {
         self.signals_at::<R, true>(c, at)
     }
 
-    /// ⟨Vi⟩ − ⟨dielectric loss⟩ = ⟨F δ̇⟩ = the power lost to damping and air. Actuator, springs and inertia return
-    /// all their energy within a period.
+    /// The mean powers satisfy ⟨Vi⟩ − ⟨dielectric loss⟩ = ⟨F δ̇⟩ = ⟨power lost to damping and air⟩. Actuator,
+    /// springs and inertia return all stored energy within a period.
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         let (stroke, hinge) = (cycle.power_stroke_damping, cycle.power_hinge_damping);
         let (translation, rotation) = (cycle.power_translational, cycle.power_rotational);
@@ -328,7 +332,8 @@ impl Model<4> for FourBar {
         )
     }
 
-    /// On a moving body, the lift of each strip jumps at another time, and these times are not located.
+    /// On a moving body, the lift of each strip jumps at a different time. flap does not search for these
+    /// times.
     fn has_slopes(&self) -> bool {
         self.terms.body == BodyTerms::None
     }
@@ -345,8 +350,8 @@ impl ExperimentModel<4> for FourBar {
         Constants { drive, ..*c }
     }
 
-    /// Returns the modes of M(0) and K = diag(k_eff δ′(0)², k_rot). At the voltage V_ref the actuator is unloaded
-    /// there.
+    /// Returns the natural modes for the mass matrix M(0) and the stiffness matrix K = diag(k_eff δ′(0)²,
+    /// k_rot), at zero stroke and pitch. At the voltage V_ref, the actuator exerts no force at zero stroke.
     fn modes(c: &Constants<f64>) -> Vec<Mode> {
         let links = transmission(c, 0.0);
         let stiffness = c.actuator.stiffness * links.slope * links.slope;

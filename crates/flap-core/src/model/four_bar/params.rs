@@ -14,12 +14,12 @@ use crate::piezo::{EPSILON_0, ElectricalParameters};
 use crate::springs::{FLEXURE, HingeParameters};
 
 crate::parameters! {
-    /// Parameters of the four-bar model, in SI units. Symbols as in Arabagi, Hines and Sitti 2013, if the paper has a
-    /// symbol.
+    /// Parameters of the four-bar model, in SI units. If Arabagi, Hines and Sitti (2013) use a symbol for a
+    /// parameter, the table contains this symbol.
     pub struct Params {
         ["drive"]
-        /// Peak-to-peak drive voltage. If drive_shape is "harmonics", drive_voltage_pp is the peak-to-peak voltage of
-        /// the fundamental alone.
+        /// Peak-to-peak drive voltage. If drive_shape is "harmonics", drive_voltage_pp is the peak-to-peak
+        /// voltage of the first harmonic alone.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)) 150.0,
         /// Constant part of the drive voltage.
         drive_bias: f64 = ("V", "V_dc", Number(Any)) 50.0,
@@ -34,10 +34,11 @@ crate::parameters! {
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")) None,
 
         ["actuator"]
-        /// Length of the actuator, which determines the actuator force. The value of actuator_length is assumed.
+        /// Length of the actuator, on which the force of the actuator depends. The value of actuator_length
+        /// is assumed.
         actuator_length: f64 = ("m", "L", Number(Positive)) 16e-3,
-        /// Width of the actuator, which is uniform and determines the actuator force. The value of actuator_width is
-        /// assumed.
+        /// Width of the actuator, on which the force of the actuator depends. The width is constant along the
+        /// actuator. The value of actuator_width is assumed.
         actuator_width: f64 = ("m", "w", Number(Positive)) 18e-3,
         /// Thickness of the piezoelectric layer. The value of piezo_thickness is assumed: the thickness of a commercial
         /// sheet.
@@ -55,8 +56,8 @@ crate::parameters! {
         /// Magnitude of the piezoelectric coefficient. The value of piezo_coefficient is assumed: the coefficient of
         /// PZT-5H.
         piezo_coefficient: f64 = ("m/V", "d_31", Number(Any)) 320e-12,
-        /// Permittivity of the unstressed piezoelectric layer. The value of piezo_permittivity is assumed: the
-        /// permittivity of PZT-5H. The permittivity affects only the current.
+        /// Permittivity of the unstressed piezoelectric layer. The value of piezo_permittivity is assumed:
+        /// the permittivity of PZT-5H. The permittivity affects only the current and the electrical power.
         piezo_permittivity: f64 = ("F/m", "eps_T", Number(NonNegative)) 3800.0 * EPSILON_0,
         /// Dielectric loss and charge recovery.
         electrical: ElectricalParameters = (flatten) ElectricalParameters::NONE,
@@ -67,18 +68,18 @@ crate::parameters! {
         /// Stiffness of the spring between the actuator's tip and the slider-crank.
         series_stiffness: f64 = ("N/m", "k_sc", Number(Positive)) 1400.0,
 
-        /// Radius of the slider-crank on the input link. The value of crank_radius is assumed: the radius is chosen so
-        /// that the first resonance agrees with the paper.
+        /// Radius of the crank of the slider-crank, which is part of the input link. The value of
+        /// crank_radius is assumed: the radius is chosen so that the first resonance agrees with the paper.
         crank_radius: f64 = ("m", "L_c", Number(Positive)) 3.285e-3,
         /// Length of the connecting rod of the slider-crank. The value of connecting_rod is assumed.
         connecting_rod: f64 = ("m", "L_s", Number(Positive)) 5e-3,
         /// Length of the ground link: distance between the fixed pivots of the four-bar.
         ground_link: f64 = ("m", "L_0", Number(Positive)) 13.5e-3,
-        /// Length of the input link of the four-bar, which the slider-crank drives.
+        /// Length of the input link of the four-bar. The slider-crank drives the input link.
         input_link: f64 = ("m", "L_1", Number(Positive)) 12.1e-3,
         /// Length of the coupler link of the four-bar.
         coupler_link: f64 = ("m", "L_2", Number(Positive)) 10e-3,
-        /// Length of the output link of the four-bar, which carries the wing.
+        /// Length of the output link of the four-bar. The output link carries the wing.
         output_link: f64 = ("m", "L_3", Number(Positive)) 5e-3,
         /// Angle between the output link and the ground link at zero stroke. The value of neutral_angle is assumed: the
         /// angle of the largest transmission ratio.
@@ -98,8 +99,9 @@ crate::parameters! {
         /// Moment of inertia of the output link about its centre. The value of output_link_inertia is assumed: the
         /// inertia of a uniform rod.
         output_link_inertia: Option<f64> = ("kg*m^2", "J_L3", Following(NonNegative, "output_link_mass * output_link^2 / 12")) None,
-        /// Cubic stiffness of the stroke: the transmission adds a moment of stroke_stiffening times the third power of
-        /// the stroke, against the stroke. Arabagi et al. (2013) do not use stroke_stiffening.
+        /// Cubic stiffness of the stroke. The transmission exerts an additional moment against the stroke:
+        /// stroke_stiffening times the third power of the stroke angle. Arabagi et al. (2013) do not use
+        /// stroke_stiffening.
         stroke_stiffening: f64 = ("N*m/rad^3", "", Number(Any), default: 0.0) 0.0,
         /// Viscous damping of the stroke by the flexures of the transmission. The value of stroke_damping is assumed:
         /// this damping gives modal damping ratios of 4 to 9 percent.
@@ -159,8 +161,9 @@ crate::parameters! {
         /// Moment of inertia of the wing about the chordwise axis through its centre of mass. The value of
         /// wing_inertia_chord is assumed.
         wing_inertia_chord: f64 = ("kg*m^2", "J_zz", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 3.436e-10,
-        /// Product of inertia of the wing about its centre of mass, positive if the wing is deeper towards the tip. The
-        /// value of wing_inertia_product is assumed.
+        /// Product of inertia of the wing about its centre of mass. The product is positive if the mass near
+        /// the tip is farther behind the rotation axis than the mass near the root. The value of
+        /// wing_inertia_product is assumed.
         wing_inertia_product: f64 = ("kg*m^2", "J_xz", Number(Any), scales_with: &[("wing_length", 4.0)]) -8.38e-12,
 
         ["air"]
@@ -188,23 +191,23 @@ crate::parameters! {
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Position of the centre of pressure at an attack angle of 0, in chords, Eq. (17).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
-        /// Further terms of the force coefficients and of the centre of pressure.
+        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
-        /// Factor that multiplies the rotational circulation of potential flow. With a factor of 1, the circulation
-        /// follows the theory of Kramer (1932) and Sane and Dickinson (2002). Arabagi et al. (2013) do not use
-        /// circulation_factor.
+        /// Factor that multiplies the rotational circulation of potential flow. With circulation_factor = 1,
+        /// the circulation follows the theory of Kramer (1932) and Sane and Dickinson (2002). Arabagi et
+        /// al. (2013) do not use circulation_factor.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
 
         ["readings of the paper"]
-        /// Chordwise lever arms of Eqs. (8) and (17): as printed ("printed"), or from the rotation axis ("axis"). The
-        /// printed lever arms take the leading edge as the rotation axis.
+        /// Chordwise lever arms of Eqs. (8) and (17): as printed ("printed"), or measured from the rotation
+        /// axis ("axis"). The printed lever arms are correct only if the rotation axis is the leading edge.
         arms: Arms = ("", "", Choice(Arms::NAMES)) Arms::Printed,
         /// Sign of the term with the pitch acceleration in the lift of the added mass, Eq. (7): corrected
         /// ("corrected"), or as printed ("printed").
         am_sign: AddedMassSign = ("", "", Choice(AddedMassSign::NAMES)) AddedMassSign::Corrected,
         ["strips of the wing"]
-        /// Division of the wing into strips: at the nodes of the Gauss-Legendre rule ("gauss"), or of equal width
-        /// ("midpoint").
+        /// Division of the wing into strips: strips at the nodes of the Gauss-Legendre rule ("gauss"), or
+        /// strips of equal width ("midpoint").
         quadrature: Quadrature = ("", "", Choice(Quadrature::NAMES)) Quadrature::Gauss,
         /// Number of strips of the wing: a whole number from 1 to 64.
         strips: f64 = ("", "N", Number(STRIPS)) 16.0,
@@ -218,15 +221,17 @@ crate::parameters! {
 crate::choice! {
     /// Definitions of the chordwise lever arms in Eqs. (8) and (17).
     pub enum Arms {
-        /// The distance from the rotation axis is c/2 to the mid-chord and d_cp c to the centre of pressure.
+        /// From the rotation axis, the mid-chord is at the distance c/2 and the centre of pressure is at the
+        /// distance d_cp c, as printed.
         Printed = "printed",
-        /// Both distances are measured from the leading edge, and the rotation axis is χc behind the leading edge.
+        /// From the leading edge, the mid-chord is at the distance c/2, the centre of pressure at d_cp c, and
+        /// the rotation axis at χc.
         Axis = "axis",
     }
 }
 
 crate::choice! {
-    /// Forms of the second term of Eq. (7).
+    /// Forms of the second term of Eq. (7), the lift of the added mass.
     pub enum AddedMassSign {
         /// φ̈ (c/2 − z_RA): the term that follows from the acceleration of the mid-chord.
         Corrected = "corrected",
@@ -254,7 +259,7 @@ const MOST_STRIPS: u32 = 64;
 /// Largest number of strips.
 pub(super) const MAX_STRIPS: usize = MOST_STRIPS as usize;
 
-/// The subtracted angles in Eqs. (9) and (10), 7.2° and 9.82°, in radians.
+/// Angles that Eqs. (9) and (10) subtract, 7.2° and 9.82°, in radians.
 const LIFT_PHASE: f64 = 7.2 / 180.0 * core::f64::consts::PI;
 const DRAG_PHASE: f64 = 9.82 / 180.0 * core::f64::consts::PI;
 
@@ -298,8 +303,8 @@ impl Params {
         }
     }
 
-    /// Returns the chord (m) at `x`, from 0 at the wing's root to 1 at its tip, from the table or from the
-    /// polynomial.
+    /// Returns the chord (m) at the relative position `x`, which is 0 at the wing's root and 1 at the wing's
+    /// tip. The chord comes from the table or from the polynomial.
     pub fn chord(&self, x: f64) -> f64 {
         if let Some(chord) = self.chords.chord(x) {
             return chord;

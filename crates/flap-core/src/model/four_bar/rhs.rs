@@ -12,14 +12,14 @@ use crate::drive::Wave;
 use crate::model::stroke_and_pitch::Balance;
 use crate::num::Real;
 
-/// Displacement and inertia of actuator, slider-crank and four-bar as functions of the stroke.
+/// Displacement and inertia of actuator, slider-crank and four-bar at one stroke angle.
 #[derive(Clone, Copy, Debug)]
 pub struct Transmission<R> {
-    /// Displacement of the slider-crank δ (m).
+    /// Displacement δ of the slider-crank (m).
     pub displacement: R,
-    /// First derivative of δ with respect to the stroke, δ′ = dδ/dθ (m).
+    /// First derivative δ′ = dδ/dθ of the displacement δ with respect to the stroke (m).
     pub slope: R,
-    /// Second derivative of δ with respect to the stroke, δ″ (m).
+    /// Second derivative δ″ of the displacement δ with respect to the stroke (m).
     pub bend: R,
     /// Inertia G of links and actuator about the stroke axis (kg·m²): the sums in Eq. (13).
     pub inertia: R,
@@ -51,7 +51,7 @@ pub fn transmission<R: Real>(c: &Constants<R>, theta: R) -> Transmission<R> {
     }
 }
 
-/// Returns the force F of the actuator on the slider-crank (N), Eqs. [(1), (2)].
+/// Returns the force F of the actuator on the slider-crank (N), from the reconstructed Eqs. (1) and (2).
 ///
 /// ```text
 /// F = k_eff (γ (V − V_ref) − δ)
@@ -72,8 +72,8 @@ pub(super) fn tip<R: Real>(c: &Actuator<R>, displacement: R, force: R) -> R {
     displacement + force * c.series_compliance
 }
 
-/// Returns the current into the actuator (A), which follows from the reciprocity of actuator force and charge. The
-/// paper does not contain this equation.
+/// Returns the current into the actuator (A). The current follows from the reciprocity of the actuator's
+/// force and charge. The paper does not contain this equation.
 ///
 /// ```text
 /// i = C_b V̇ + Γ δ̇_a     δ̇_a = δ′θ̇ + k_eff (γV̇ − δ′θ̇)/k_sc
@@ -95,7 +95,7 @@ pub(super) fn charging_current<R: Real>(c: &Actuator<R>, drive: &Wave<R>) -> R {
     (c.capacitance + c.coupling * c.stiffness * c.deflection * c.series_compliance) * drive.rate
 }
 
-/// Returns the part of the actuator's [`force`] (N) due to a change of voltage by `swing` (V): k_eff γ swing.
+/// Returns the change of the actuator's [`force`] (N) if the voltage changes by `swing` (V): k_eff γ swing.
 #[inline(always)]
 pub(super) fn driving_force<R: Real>(c: &Actuator<R>, swing: R) -> R {
     c.stiffness * c.deflection * swing
@@ -116,15 +116,16 @@ pub(super) fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R)
     ]
 }
 
-/// Returns the mass matrix and the generalised forces without the force of the actuator, from Lagrange's equations,
-/// Eqs. (14) and (15).
+/// Returns the mass matrix and the generalised forces of Lagrange's equations, Eqs. (14) and (15), without
+/// the moment F δ′ of the actuator.
 ///
 /// ```text
 /// ⎡M₁₁ M₁₂⎤ ⎡θ̈⎤ = ⎡F δ′ + Q_θ − Dθ̇ + P sin φ φ̇² − J_d sin 2φ θ̇φ̇ − ½G′θ̇²⎤
 /// ⎣M₁₂ M₂₂⎦ ⎣φ̈⎦   ⎣Q_φ − dφ̇ − k_rot φ + ½J_d sin 2φ θ̇²                  ⎦
 /// ```
 ///
-/// The damping of the stroke includes the loss factor γ of actuator and series spring: D + γ k_eff δ′²/ω.
+/// The damping of the stroke includes the damping that is equivalent to the loss factor γ of actuator and
+/// series spring: D + γ k_eff δ′²/ω.
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
     let (sin, cos) = y[1].sin_cos();
@@ -154,10 +155,10 @@ pub(super) fn balance_in<R: Real>(
     Balance { mass: mass_matrix(c, links.inertia, sin, cos), stroke_moment, pitch_moment }
 }
 
-/// Returns the damping of the stroke (N·m·s). The damping is the sum of D and the damping equivalent to the loss factor
-/// γ of actuator and series spring.
+/// Returns the damping of the stroke (N·m·s). The damping is the sum of D and the damping that is equivalent
+/// to the loss factor γ of actuator and series spring.
 ///
-/// The loss factor is not in the paper.
+/// The paper does not contain the loss factor γ.
 ///
 /// ```text
 /// D + γ k_eff δ′²/ω

@@ -38,7 +38,7 @@ pub(super) fn arms(p: &Params) -> [f64; 2] {
 }
 
 crate::per_lane! {
-    /// Motion of the body, and the constants of the wing that depend on this motion.
+    /// Motion of the body, and the constants of the wing that the equations need if the body moves.
     pub struct Moving<R> {
         /// Motion of the shoulder.
         pub motion: BodyMotion<R>,
@@ -53,7 +53,8 @@ impl Moving<f64> {
     /// A body at rest.
     pub(super) const REST: Moving<f64> = Moving { motion: BodyMotion::REST, behind: 0.0, added: 0.0 };
 
-    /// Returns the constants of a point, if the equations contain the given `terms` of body motion.
+    /// Returns the motion of the body and the constants for this motion. If `terms` is `BodyTerms::None`, the
+    /// body is at rest.
     pub(super) fn of(p: &Params, terms: BodyTerms) -> Result<Moving<f64>, Invalid> {
         if terms == BodyTerms::None {
             return Ok(Moving::REST);

@@ -3,12 +3,12 @@
 use crate::drive::Drive;
 use crate::model::Terms;
 
-/// Variant of the four-bar model: the choices that select the form of the equations.
+/// Variant of the four-bar model: the options that select the form of the equations.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourBar {
     /// Drive of the wing: a voltage, or a prescribed stroke.
     pub drive: Drive,
-    /// Terms that the paper leaves out.
+    /// Terms of the equations that the paper leaves out.
     pub terms: Terms,
 }
 
