@@ -26,12 +26,12 @@ pub struct Description<'a> {
     pub presets: &'static [Preset],
     /// Sign convention of the pitch, which flap uses in pictures of the wing.
     ///
-    /// Suppose that the pitch is positive and the stroke angle increases. The sign is 1 if the trailing edge
-    /// then lags behind the leading edge, and −1 if the trailing edge leads.
+    /// The sign is 1 if the trailing edge lags behind the leading edge at a positive pitch, while the stroke
+    /// angle increases. The sign is −1 if the trailing edge leads.
     pub pitch_sign: i8,
     /// True if the model implements [`Model::load`], which computes the aerodynamic force and moment on the
-    /// wing. The rows of such a model contain the load if
-    /// [`SolverSettings::loads`](crate::simulate::SolverSettings::loads) is set.
+    /// wing. If [`SolverSettings::loads`](crate::simulate::SolverSettings::loads) is set, the rows contain
+    /// this force and moment.
     pub loads: bool,
     /// Function that computes the parameters of a user-defined wing. The value is `None` if the model does
     /// not support user-defined wings.
@@ -71,17 +71,18 @@ pub struct Derived<M, C, S: SignalSet> {
     /// Function that returns the value of the column in the unit `unit`. The arguments are the model, the
     /// constants of the point, and the signals over a drive period of the orbit.
     ///
-    /// For each signal, the mean and the quantities that the [measures](super::Signal::measures) of this
-    /// signal require are known. All other quantities are NaN.
+    /// For each signal, the function knows the mean, and the quantities that the
+    /// [measures](super::Signal::measures) of the signal require. Quantities of a signal that no measure
+    /// requires are NaN.
     pub value: fn(&M, &C, &S::Of<SignalCycle>) -> f64,
-    /// Columns in the rows of a vehicle that correspond to this column: one sum, one column per wing, or no
-    /// column.
+    /// Columns in the rows of a vehicle that replace this column of a single wing: one sum, one column per
+    /// wing, or no column.
     pub over_wings: OverWings,
 }
 
 impl<M, C, S: SignalSet> Derived<M, C, S> {
-    /// Returns a column with the given name, unit, description and function. The rows of a vehicle omit this
-    /// column.
+    /// Returns a column with the given name, unit, description and function. The rows of a vehicle do not
+    /// contain the column.
     pub const fn new(
         name: &'static str,
         unit: &'static str,
@@ -101,12 +102,12 @@ impl<M, C, S: SignalSet> Derived<M, C, S> {
 /// The symmetry of the equations of a point. If y(t) is a solution, 2 · centre − y(t + T/2) is also a
 /// solution, where T is the drive period.
 ///
-/// A switching function must have opposite signs for y(t) and for this mirrored solution. A constant part of
+/// A switching function must have opposite signs for a solution and for its mirror image. A constant part of
 /// the drive breaks the symmetry, unless the constant part only shifts the centre. An even harmonic of the
-/// drive also breaks the symmetry. The search for an orbit compares the equations at a state and at its
-/// mirror image. If the equations are not symmetric, the search integrates whole periods. flap does not check
-/// the function `second_half`. To test this function, compare rows with and without
-/// [`SolverSettings::symmetry`](crate::simulate::SolverSettings::symmetry).
+/// drive also breaks the symmetry. The search for an orbit tests the symmetry: it compares the equations at a
+/// state and at the mirror image of this state. If the equations are not symmetric, the search integrates
+/// whole periods. flap does not check the function `second_half`. To test `second_half`, compare rows with
+/// and without [`SolverSettings::symmetry`](crate::simulate::SolverSettings::symmetry).
 #[derive(Clone, Copy, Debug)]
 pub struct Symmetry<S: SignalSet, const N: usize> {
     /// State at the centre of the mirror symmetry.
@@ -114,10 +115,10 @@ pub struct Symmetry<S: SignalSet, const N: usize> {
     /// Function that computes the [`Totals`] of the signals over the second half of a symmetric period from
     /// the [`Totals`] over the first half.
     ///
-    /// Use [`Totals::negated`] for signals with opposite signs in the two halves, such as angles. Use
-    /// [`Totals::repeated`] for signals that are equal in the two halves, such as lift and power. The value
-    /// is `None` if the first half does not determine the totals of the second half. In this case, flap
-    /// measures whole periods.
+    /// Use [`Totals::negated`] for signals with opposite signs in the two halves of a period, such as angles.
+    /// Use [`Totals::repeated`] for signals that are equal in the two halves, such as lift and power. The
+    /// value is `None` if the first half does not determine the totals of the second half. If the value is
+    /// `None`, flap measures whole periods.
     pub second_half: Option<SecondHalf<S>>,
 }
 
@@ -166,8 +167,9 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// Returns a copy of this variant whose equations also contain the additional terms of the variant
     /// `other`.
     ///
-    /// A term is additional if the equations with the term at zero equal the equations without the term. flap
-    /// needs this function for the derivatives with respect to parameters whose terms are zero at a point.
+    /// A term is additional if the equations with the term at zero equal the equations without the term. To
+    /// compute the derivative with respect to the parameter of a term that is zero at the point, flap uses a
+    /// variant with this term.
     fn with_terms_of(&self, other: &Self) -> Self {
         let _ = other;
         self.clone()
@@ -194,7 +196,7 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         None
     }
 
-    /// Returns the drive of a point. The phases of the signals' harmonics are relative to the phase of this
+    /// Returns the drive of a point. The phases of the signals' harmonics are relative to the phase of the
     /// drive.
     fn drive<R: Real>(c: &Self::Constants<R>) -> &DriveConstants<R>;
 
@@ -214,8 +216,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         at: Instant<'_, R, Self::Input<R>, N>,
     ) -> SignalsOf<Self::Signals, R>;
 
-    /// Returns the signals of a variant for which [`Ode::is_plain`] is true. The result must have the same
-    /// bits as the result of [`Model::signals`].
+    /// Returns the signals of a variant for which [`Ode::is_plain`] is true. The function must return the
+    /// same bits as [`Model::signals`].
     #[inline(always)]
     fn plain_signals<R: Real>(
         &self,
@@ -234,7 +236,7 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     }
 
     /// Returns the relative difference between two computations of the same mean power, after
-    /// [`Model::balance_energy`]. If the integration had no errors, this difference would be zero.
+    /// [`Model::balance_energy`]. An integration without numerical errors would give a difference of zero.
     ///
     /// If the energy audit exceeds the solver setting `accuracy`, flap integrates the point again. The
     /// default is 0.
@@ -243,8 +245,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         0.0
     }
 
-    /// Returns the aerodynamic force and moment on the wing at one instant. flap needs this load for
-    /// vehicles.
+    /// Returns the aerodynamic force and moment on the wing at one instant. The forces and torques of a
+    /// vehicle are computed from the loads of its wings.
     #[inline(always)]
     fn load<R: Real>(&self, c: &Self::Constants<R>, at: Instant<'_, R, Self::Input<R>, N>) -> Load<R> {
         let _ = c;
@@ -258,8 +260,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         self.impulse_of_stages(c, attempt)
     }
 
-    /// Returns the time integral of the load over a step, computed from the stages of the step. The load must
-    /// not jump within the step.
+    /// Returns the time integral of the load over a step, computed from the stages of the step. The result is
+    /// accurate only if the load does not jump within the step.
     #[inline(always)]
     fn impulse_of_stages<R: Lanes>(&self, c: &Self::Constants<R>, attempt: &Attempt<'_, R, N>) -> [R; 6] {
         let Attempt { side, step, .. } = *attempt;
@@ -274,8 +276,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     }
 
     /// Returns false if loads or signals of this variant jump within steps, at times that depend on the
-    /// parameters. With fixed steps, the measures of such a variant have no derivatives with respect to the
-    /// parameters.
+    /// parameters. If loads or signals jump within steps, the measures have no derivatives with respect to
+    /// the parameters on fixed steps.
     fn has_slopes(&self) -> bool {
         true
     }

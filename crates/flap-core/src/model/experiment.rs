@@ -26,8 +26,8 @@ pub trait ExperimentModel<const N: usize>: Model<N> {
     /// list is the mode that an impulse on the stroke excites.
     fn modes(c: &Self::Constants<f64>) -> Vec<Mode>;
 
-    /// Returns the constants for a constant drive voltage. At this voltage, all angles are zero in the rest
-    /// position.
+    /// Returns the constants for a constant drive voltage. With the returned constants, all angles are zero
+    /// in the rest position.
     fn resting(c: &Self::Constants<f64>) -> Self::Constants<f64>;
 
     /// Returns the state immediately after a torque impulse on the wing at rest. The impulse gives the stroke

@@ -1,4 +1,4 @@
-//! Functions that compute the values of derived columns. Several models have these columns.
+//! Functions that compute the values of derived columns, for columns that exist in several models.
 
 use super::signal::{DEGREES, GRAVITY};
 

@@ -7,7 +7,8 @@ pub struct Signal {
     pub name: &'static str,
     /// Unit of the columns of the signal.
     pub unit: Unit,
-    /// Description of the signal. In the description of a column, this text follows words such as "mean".
+    /// Description of the signal. The description of a column consists of words such as "mean" and the
+    /// description of the signal.
     pub doc: &'static str,
     /// Measures of the signal over a drive period. Each measure is a column of the results. A signal without
     /// measures is used only in derived columns and has no column in trajectories.
@@ -47,9 +48,9 @@ impl Signal {
     /// Returns the columns that the rows of a vehicle contain for a measure of this signal.
     ///
     /// For a mean power, the row of a vehicle contains the sum over all wings. The extrema and the root mean
-    /// square of a sum depend on the phase differences between the wings. For these measures, the row
-    /// therefore contains one column per wing. The row omits the forces of single wings, because it contains
-    /// the force on the whole vehicle.
+    /// square of a sum depend on the phase differences between the wings. For extrema and root mean squares,
+    /// the row therefore contains one column per wing. The row of a vehicle omits the forces of single wings,
+    /// because the row contains the force on the whole vehicle.
     pub(crate) fn over_wings(&self, measure: Measure) -> OverWings {
         match (self.unit.name, measure) {
             _ if self.of_wings.contains(&measure) => OverWings::Each,
@@ -132,8 +133,8 @@ impl Statistics {
 
 /// Measure whose error contributes to the error estimate of a row.
 ///
-/// For the error estimate, flap integrates again with larger tolerances. The second integration computes
-/// means and first harmonics, but no other measures.
+/// For the error estimate, flap integrates again with larger tolerances. The second integration computes only
+/// means and first harmonics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Principal {
     /// Mean.
@@ -211,7 +212,7 @@ impl Measure {
     }
 }
 
-/// Quantities of a signal over one drive period, in SI units. flap computes the measures of the signal from
+/// Quantities of a signal over one drive period, in SI units. The measures of the signal are computed from
 /// these quantities. Quantities that no measure requires are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignalCycle {
@@ -236,8 +237,8 @@ impl SignalCycle {
     ///
     /// In a periodic orbit, the mean power equals the sum of the mean losses, because capacitance, springs
     /// and inertia return all stored energy. If the losses are small or the motion is far from resonance,
-    /// most of the power is stored and returned. The quadrature error of this large power can exceed the mean
-    /// power.
+    /// most of the power is stored and returned. The quadrature error of the stored and returned power can
+    /// exceed the mean power.
     pub fn balance(&mut self, losses: &[SignalCycle]) {
         if !self.mean.is_nan() {
             self.mean = losses.iter().map(|loss| loss.mean).sum();
@@ -279,7 +280,7 @@ impl SignalCycle {
     }
 }
 
-/// A unit of columns. A model may also declare units that are not in this list.
+/// A unit of columns. A model may also declare units that are not among the constants of `Unit`.
 #[derive(Clone, Copy, Debug)]
 pub struct Unit {
     /// Symbol of the unit, such as `mN`.

@@ -5,7 +5,8 @@ use crate::num::{Lanes, PerLane};
 
 /// A set of signals that the macro [`signals!`](crate::signals) declares.
 pub trait SignalSet: Copy + 'static {
-    /// A struct with one field of the type `T` for each signal. Each field has the name of its signal.
+    /// A struct with one field of the type `T` for each signal. The name of each field is the name of the
+    /// signal.
     type Of<T: Copy>: Copy;
 
     /// The signals of the set, in the order of their columns.
@@ -93,8 +94,9 @@ impl<S: SignalSet, R: Lanes, P: PerLane<R>> PerLane<R> for Each<S, P> {
 
 /// Declares the signals of a model: a struct with one field per signal.
 ///
-/// Each line declares one signal by its name, unit, description and [measures](crate::model::Measure). Each
-/// measure becomes a column of the results. A line may end with these options:
+/// Each line of the macro declares one signal by its name, unit, description and
+/// [measures](crate::model::Measure). Each measure becomes a column of the results. A line may end with these
+/// options:
 ///
 /// - `principal Mean` or `principal First`: the [measure](crate::model::Principal) whose error contributes to the error
 ///   estimate of a row

@@ -48,8 +48,8 @@ impl<R: Real> Balance<R> {
     /// computed from the second equation of motion.
     ///
     /// The state `y` also contains the stroke and its rate, which the integration keeps close to the
-    /// prescribed values. Integration errors in the stroke and its rate decay at the rate `forgetting` (1/s),
-    /// so the errors do not accumulate.
+    /// prescribed values. Integration errors in the stroke and the stroke rate decay at the rate `forgetting`
+    /// (1/s), so the errors do not accumulate.
     #[inline(always)]
     pub fn prescribed(&self, y: &[R; 4], stroke: &Wave<R>, forgetting: R) -> [R; 4] {
         let [_, m12, m22] = self.mass;

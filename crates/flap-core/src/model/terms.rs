@@ -2,14 +2,14 @@
 
 use crate::body::BodyTerms;
 
-/// Terms of a model's equations that the paper of the model leaves out. The fields determine which of these
+/// Terms of a model's equations that the paper of the model leaves out. The fields determine which of the
 /// terms the equations contain.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Terms {
     /// Terms that describe the motion of the body.
     pub body: BodyTerms,
     /// True if the equations contain higher harmonics of the attack angle, or additional forces along the
-    /// wing's normal. These forces are rotational circulation, rotational drag and added mass.
+    /// wing's normal. The additional forces are rotational circulation, rotational drag and added mass.
     pub air: bool,
     /// True if the equations contain nonlinear springs.
     pub stiffening: bool,
@@ -19,8 +19,8 @@ impl Terms {
     /// No terms.
     pub const NONE: Terms = Terms { body: BodyTerms::None, air: false, stiffening: false };
 
-    /// Returns all terms that `self` or `other` contains. If both contain terms of the body's motion, the
-    /// result contains the body terms of `self`.
+    /// Returns all terms that `self` or `other` contains. If `self` and `other` both contain terms of the
+    /// body's motion, the result contains these terms of `self`.
     pub fn or(self, other: Terms) -> Terms {
         let body = if self.body == BodyTerms::None { other.body } else { self.body };
         Terms { body, air: self.air || other.air, stiffening: self.stiffening || other.stiffening }

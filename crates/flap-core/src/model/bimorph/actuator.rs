@@ -61,8 +61,8 @@ impl Actuator {
     }
 }
 
-/// Returns the gain G of a tapered cantilever with a rigid extension, Eqs. (3) and (6). For the formula of G,
-/// the paper refers to its reference 9.
+/// Returns the gain G of a tapered cantilever with a rigid extension, Eqs. (3) and (6). The paper does not
+/// derive the formula of G, but refers to its reference 9.
 ///
 /// `width_ratio` is w_r, the width of the actuator at its base divided by its mean width. `extension_ratio`
 /// is l_r, the length of the rigid extension divided by the length of the tapered part. With c = 1 + 2l_r and
@@ -72,8 +72,8 @@ impl Actuator {
 /// G = c / (3 I)     I = ∫₀¹ (1 + l_r − s)²/(w_r + 2 (1 − w_r) s) ds = ⅛ ∫₋₁¹ (c − z)²/(1 − δz) dz
 /// ```
 ///
-/// If δ is small, the closed formula for the integral I has a rounding error proportional to 1/δ³. For |δ| <
-/// ½, the function therefore expands the integrand in powers of δz.
+/// If δ is small, the closed formula for the integral I has a rounding error proportional to 1/δ³. If |δ| <
+/// ½, the function avoids this error: it expands the integrand of I in powers of δz.
 ///
 /// # Errors
 /// Returns an error if the width ratio is not between 0 and 2. At the ratios 0 and 2, the width of the

@@ -16,8 +16,9 @@ use crate::springs::{Stiffening, structural_damping};
 crate::per_lane! {
     /// Constants of one design point, in SI units.
     pub struct Constants<R> {
-        /// Drive of the plates. Its constant part and its amplitude are each half of the peak-to-peak drive
-        /// voltage. The voltages of the two plates contain the waveform with opposite signs.
+        /// Drive of the plates. The constant part and the amplitude of the drive are each half of the
+        /// peak-to-peak drive voltage. The voltages of the two plates contain the waveform with opposite
+        /// signs.
         pub drive: DriveConstants<R>,
         /// Half of the constant voltage difference between the two plates (V). The equations add
         /// `half_offset` to the voltage of plate 1 and subtract it from the voltage of plate 2.
@@ -164,8 +165,8 @@ crate::per_lane! {
     }
 }
 
-/// Largest allowed magnitude of an exponent in the equations. The exponential function of the lanes does not
-/// check the range of its argument.
+/// Largest allowed magnitude of an exponent in the equations. This limit is necessary because the exponential
+/// function for lanes does not check the range of its argument.
 pub(super) const EXPONENT_MAX: f64 = 600.0;
 
 /// Checks that the exponents in Eqs. (4) and (6) stay below the limit for plate voltages of up to
@@ -322,8 +323,8 @@ impl Constants<f64> {
     /// Returns a copy of the constants with the given drive.
     ///
     /// The voltages of the plates vary in antiphase, so the mean of the electric fields in both plates is
-    /// constant. The moduli of the plates are E (1 − a ℰ₁) and E (1 − a ℰ₂). The sum of their stiffnesses is
-    /// therefore also constant.
+    /// constant. The moduli of the plates are E (1 − a ℰ₁) and E (1 − a ℰ₂). The sum of the stiffnesses of
+    /// both plates is therefore also constant.
     #[must_use]
     pub(super) fn with_drive(&self, drive: DriveConstants<f64>) -> Constants<f64> {
         let DriveConstants { bias, amplitude, .. } = drive;

@@ -5,11 +5,11 @@
 //! derivatives as this module, apart from rounding errors.
 //!
 //! In the paper, the aerodynamic forces depend only on integrals over the whole wing. On a moving body, the
-//! direction of the flow varies along the span. The model therefore divides the wing into four strips
-//! ([`super::strips`]).
+//! direction of the flow varies along the span. If the body moves, the model therefore divides the wing into
+//! four strips ([`super::strips`]).
 //!
-//! The functions of this module are not inlined into other equations. The additional terms therefore need no
-//! computing time if they are zero.
+//! The functions of this module are not inlined into the equations of the paper. If all additional terms are
+//! zero, this module therefore needs no computing time.
 
 use core::f64::consts::FRAC_2_PI;
 
@@ -166,7 +166,8 @@ fn accelerations<R: Real>(motion: &Motion<R>) -> [R; 3] {
 /// ```
 ///
 /// Eq. (1) contains neither the moment that the hinge exerts on the stroke nor an inertial moment due to body
-/// rotation. Because N depends on φ̈ and ψ̈, the function solves both equations as one linear system.
+/// rotation. Because N depends on φ̈ and ψ̈, the function solves both equations of motion as one linear
+/// system.
 #[inline(always)]
 pub(super) fn derivative<R: Real>(
     c: &Constants<R>,

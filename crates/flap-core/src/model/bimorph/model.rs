@@ -31,8 +31,8 @@ use crate::parameter::Invalid;
 use crate::piezo::supplied;
 use crate::springs::Stiffening;
 
-/// Fraction of the largest lift that can carry the weight of a vehicle. Section IV of the paper reserves the
-/// other 20 % of the lift for control.
+/// Fraction of the largest lift that can carry the weight of a vehicle. Section IV of the paper reserves 20 %
+/// of the largest lift for control.
 const HOVER_SHARE: f64 = 0.8;
 
 crate::signals! {
@@ -294,7 +294,7 @@ impl Bimorph {
 /// Returns the parameters that depend on a user-defined wing.
 ///
 /// The lever arms `pressure_radius` and `rotation_pressure_width` are computed from blade elements. In the
-/// presets, these two lever arms contain factors that were fitted to one vehicle.
+/// presets, the lever arms of the aerodynamic forces contain factors that were fitted to one vehicle.
 fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
     let length = wing.offset + wing.outline.length();
     let (area, width) = (wing.area(), wing.outline.width());
@@ -357,7 +357,7 @@ impl Model<4> for Bimorph {
     ///
     /// The typical sizes of the states equal the typical sizes in the direct-drive model, so tolerances and
     /// residuals are comparable. The typical sizes are 0.1 rad of stroke and 0.3 rad of pitch. The typical
-    /// sizes of the rates are these angles times the angular drive frequency.
+    /// size of each rate is the typical size of its angle times the angular drive frequency.
     fn start(&self, values: &[f64]) -> Result<Start<Constants<f64>, 4>, Invalid> {
         let params = Params::from_values(values);
         self.drive.check(&params.waveform)?;
@@ -413,7 +413,7 @@ impl Model<4> for Bimorph {
     }
 
     /// The mean powers satisfy ⟨V₁i₁ + V₂i₂⟩ − ⟨dielectric loss⟩ = ⟨(F₁ − F₂) ẋ⟩ = ⟨power lost to drag and
-    /// damping of the stroke⟩. Eq. (1) contains no other loss.
+    /// damping of the stroke⟩. Drag and damping of the stroke are the only losses in Eq. (1).
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         let (drag, damping) = (cycle.power_drag, cycle.power_stroke_damping);
         cycle.power.balance(&[drag, damping, cycle.power_dielectric]);
@@ -434,8 +434,8 @@ impl Model<4> for Bimorph {
         load(c, false, self.centre_of_pressure, stroke(c, self.law, x), x_dot, rate, [psi, psi_dot])
     }
 
-    /// The drive voltage can cross the stress transition of Eq. (6) within a fraction of a step. In this
-    /// transition, the currents have peaks.
+    /// The drive voltage can cross the stress transition of Eq. (6) within a fraction of a step. When the
+    /// voltage crosses the transition, the currents have peaks.
     #[inline(always)]
     fn parts(&self) -> u32 {
         if self.drive.waveform == Waveform::Shape(Shape::Square) { 6 } else { 2 }

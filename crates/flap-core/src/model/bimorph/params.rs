@@ -16,7 +16,7 @@ crate::parameters! {
         ["drive"]
         /// Peak-to-peak drive voltage. If drive_offset is 0, the voltages of the two plates vary in antiphase
         /// between 0 and drive_voltage_pp, Eq. (7). If drive_shape is "harmonics", drive_voltage_pp is the
-        /// peak-to-peak voltage of the first harmonic alone.
+        /// peak-to-peak voltage of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)) 200.0,
         /// Drive frequency. In the experiments of Jafferis et al. (2016), the drive frequency changes at a
         /// rate of 15 Hz/s.
@@ -53,10 +53,10 @@ crate::parameters! {
         wing_area: f64 = ("m^2", "A_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 54.59e-6,
         /// Radius of the second moment of the wing area about the stroke axis, divided by wing_length.
         wing_radius_2: f64 = ("", "r_2", Number(Positive)) 0.564,
-        /// Radius of the first moment of the wing area about the stroke axis, divided by wing_length. With
-        /// wing_radius_1, flap computes the chord along the span. Only body motion, circulation_factor,
-        /// rotation_force_factor and added_mass_factor need this chord. Jafferis et al. (2016) do not use
-        /// wing_radius_1.
+        /// Radius of the first moment of the wing area about the stroke axis, divided by wing_length. From
+        /// wing_radius_1, flap computes how the chord varies along the span. Only body motion,
+        /// circulation_factor, rotation_force_factor and added_mass_factor need the chord along the span.
+        /// Jafferis et al. (2016) do not use wing_radius_1.
         wing_radius_1: Option<f64> = ("", "r_1", Following(Positive, "(wing_radius_2 / 0.929)^(1 / 0.732), from Ellington (1984)")) None,
         /// Wing width: largest distance between the hinge's axis and a point of the wing.
         wing_width: f64 = ("m", "W", Number(Positive), scales_with: &[("wing_length", 1.0)]) 4.5e-3,
@@ -105,15 +105,15 @@ crate::parameters! {
         /// al. (2016) do not use circulation_factor.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
         /// Factor that multiplies the force of the rotational drag along the wing's normal. With
-        /// rotation_force_factor = 1, this force is consistent with the moment of the rotational drag in
-        /// Eq. (9). Jafferis et al. (2016) do not use rotation_force_factor.
+        /// rotation_force_factor = 1, the force along the normal is consistent with the moment of the
+        /// rotational drag in Eq. (9). Jafferis et al. (2016) do not use rotation_force_factor.
         rotation_force_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Factor that multiplies the added mass of the wing's sections. This added mass acts on stroke and
-        /// pitch. With added_mass_factor = 1, each section has the added mass of a flat plate in potential
-        /// flow. Jafferis et al. (2016) do not use added_mass_factor, only added_inertia_stroke.
+        /// Factor that multiplies the added mass of the wing's sections. The added mass of the sections acts
+        /// on stroke and pitch. With added_mass_factor = 1, each section has the added mass of a flat plate
+        /// in potential flow. Jafferis et al. (2016) do not use added_mass_factor, only added_inertia_stroke.
         added_mass_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
-        /// Distance of the hinge's axis from the leading edge, in chords. axis_position has no effect if
-        /// circulation_factor, rotation_force_factor and added_mass_factor are all zero.
+        /// Distance of the hinge's axis from the leading edge, in chords. If circulation_factor,
+        /// rotation_force_factor and added_mass_factor are all zero, axis_position has no effect.
         axis_position: f64 = ("", "x_0", Number(Any), default: 0.0) 0.0,
 
         ["actuator"]
@@ -139,8 +139,8 @@ crate::parameters! {
         /// Young's modulus of the piezoelectric plates under large compression, Eq. (4).
         piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)) 81e9,
         /// Relative reduction of the Young's modulus of the piezoelectric plates per electric field. The
-        /// reduction is proportional to the mean of the electric fields in the two plates. This mean field is
-        /// constant over a period. Jafferis et al. (2016) do not use modulus_decline.
+        /// reduction is proportional to the mean of the electric fields in the two plates. The mean of the
+        /// two fields is constant over a period. Jafferis et al. (2016) do not use modulus_decline.
         modulus_decline: f64 = ("m/V", "", Number(Any), default: 0.0) 0.0,
         /// Strain in the middle of the transition between piezo_modulus_min and piezo_modulus_max, Eq. (4). A strain is
         /// negative in compression.
@@ -161,15 +161,14 @@ crate::parameters! {
         stress_decline: f64 = ("m/V", "a_4", Number(Any)) 69e-9,
         /// Relative change of the force of a piezoelectric plate per strain, Eq. (6).
         force_strain_slope: f64 = ("", "a_2", Number(Any)) -230.0,
-        /// Factor that multiplies the force of the piezoelectric plates. The factor describes losses where
-        /// the actuator is attached to the robot. A factor of 1 means no loss.
+        /// Factor that multiplies the force of the piezoelectric plates. The factor describes the force that
+        /// is lost where the actuator is attached. A factor of 1 means no loss.
         force_factor: f64 = ("", "p_3", Number(Positive), is_fitted: true) 0.7,
-        /// Factor that multiplies the stiffness of the actuator. The factor describes losses where the
-        /// actuator is attached to the robot. A factor of 1 means no loss.
+        /// Factor that multiplies the stiffness of the actuator. The factor describes the stiffness that is
+        /// lost where the actuator is attached. A factor of 1 means no loss.
         stiffness_factor: f64 = ("", "p_4", Number(Positive), is_fitted: true) 0.79,
-        /// Second factor that multiplies the stiffness of the actuator. deflection_factor adjusts the
-        /// computed free deflection of the actuator to the measured free deflection. A factor of 1 means no
-        /// correction.
+        /// Second factor that multiplies the stiffness of the actuator. The factor adjusts the computed free
+        /// deflection of the actuator to the measured free deflection. A factor of 1 means no correction.
         deflection_factor: f64 = ("", "p_5", Number(Positive), is_fitted: true) 0.8,
         /// Force of plate 2, divided by the force of plate 1 at the same voltage. Jafferis et al. (2016) do not use
         /// plate_ratio.
@@ -208,11 +207,11 @@ crate::parameters! {
 crate::choice! {
     /// Interpretations of Eq. (6), which gives the piezoelectric stress per electric field.
     pub enum FieldTransition {
-        /// The stress per field is f_min + (f_max (1 − a₄ℰ) − f_min) σ. It rises from f_min to f_max, as the
-        /// text of the paper describes.
+        /// The stress per field is f_min + (f_max (1 − a₄ℰ) − f_min) σ. The stress per field rises from f_min
+        /// to f_max, as the text of the paper describes.
         Corrected = "corrected",
-        /// The stress per field is (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ), as printed. It never
-        /// approaches f_max.
+        /// The stress per field is (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ), as printed. The printed
+        /// formula never approaches f_max.
         Printed = "printed",
     }
 }
@@ -224,8 +223,8 @@ crate::choice! {
         Folded = "folded",
         /// ψ sign(ẋ): the attack angle is measured from the direction of motion.
         Directional = "directional",
-        /// ψ: the angle as printed in the paper. The two half strokes are then not mirror images of each
-        /// other.
+        /// ψ: the angle as printed in the paper. With this angle, the two half strokes are not mirror images
+        /// of each other.
         Literal = "literal",
     }
 }

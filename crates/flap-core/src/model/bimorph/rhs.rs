@@ -70,8 +70,8 @@ fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
     [second * both, first * power * both]
 }
 
-/// Returns a plate with its force at zero strain, Eq. (6), and with the derivatives of this force, on which
-/// the current depends. `s` is the progress of the stress transition, from 0 to 1.
+/// Returns a plate: its force at zero strain, Eq. (6), and the derivatives of this force. The current of the
+/// plate depends on these derivatives. `s` is the progress of the stress transition, from 0 to 1.
 ///
 /// ```text
 /// g = F_pre ℰ f₃₁(ℰ)     f₃₁ = f_min + A S     A = f_max (1 − a₄ℰ) − f_min
@@ -131,7 +131,7 @@ pub(super) fn stiffening<R: Real>(c: &Constants<R>, x: R) -> R {
 /// Returns the actuator's elastic force K_act(x) x (N), Eqs. (3) and (4).
 ///
 /// K_act is a secant stiffness and contains the quotient L/u. The function computes the product K_act x
-/// without a division, so the result is also valid at x = 0.
+/// without a division by u, so the result is also valid at x = 0.
 ///
 /// ```text
 /// K_act = K_pre (E_e D_E + E_cf t_cf³/4)     E_e = E_min + ½ (E_max − E_min) L/u
@@ -152,8 +152,8 @@ pub fn secant_stiffness<R: Real>(c: &Constants<R>, x: R) -> R {
 /// Returns two numbers: the lift coefficient of the wing divided by sin 2ψ, which is b_L, and the drag
 /// coefficient b₁ + b₂ cos 2ψ.
 ///
-/// If `harmonics` is true, both coefficients also contain the terms of `aero::Harmonics` at the attack angle
-/// 90° − ψ.
+/// If `harmonics` is true, the lift and drag coefficients also contain the terms of `aero::Harmonics` at the
+/// attack angle 90° − ψ.
 #[inline(always)]
 fn coefficients<R: Real>(c: &Constants<R>, harmonics: bool, cos_2psi: R) -> [R; 2] {
     let (lift, drag) = (c.b_l, c.b_1 + c.b_2 * cos_2psi);
@@ -170,8 +170,8 @@ pub(super) fn tip_drag<R: Real>(c: &Constants<R>, cos_2psi: R) -> R {
     c.c_a + c.c_b * cos_2psi
 }
 
-/// Returns the angle ψ̃ on which the centre of pressure depends, for the interpretation `reading` of Eq.
-/// (11).
+/// Returns the angle ψ̃ on which the centre of pressure depends, for the interpretation `reading` of
+/// Eq. (11).
 #[inline(always)]
 pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
     match reading {
@@ -189,8 +189,8 @@ pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
 /// W_cp2 = A_w/R (p_min + (p_max − p_min) |1 − 2/π ψ̃|)
 /// ```
 ///
-/// If `harmonics` is true, the force coefficients and W_cp2 also contain the terms of `aero::Harmonics`. For
-/// W_cp2, these terms depend on the attack angle |90° − ψ̃|.
+/// If `harmonics` is true, the force coefficients and W_cp2 also contain the terms of `aero::Harmonics`. The
+/// terms of `aero::Harmonics` in W_cp2 depend on the attack angle |90° − ψ̃|.
 #[inline(always)]
 pub(super) fn hinge_drag<R: Real>(c: &Constants<R>, harmonics: bool, tilt: R, sin: R, cos: R) -> R {
     let (sin_2psi, cos_2psi) = double_angle(sin, cos);
@@ -215,8 +215,9 @@ pub(super) fn double_angle<R: Real>(sin: R, cos: R) -> (R, R) {
 /// ```
 ///
 /// The code contains two terms that the paper leaves out: damping of stroke and hinge, and a [`Transmission`]
-/// ratio that grows with the displacement. Both terms are zero by default. If the transmission ratio grows, T
-/// ẋ stands for φ̇ in these equations, and T ẍ stands for φ̈.
+/// ratio that grows with the displacement. By default, the damping is zero and the transmission ratio is
+/// constant. If the transmission ratio grows, T ẋ stands for φ̇ in the equations of motion, and T ẍ stands
+/// for φ̈.
 #[inline(always)]
 pub(super) fn derivative<R: Real>(
     c: &Constants<R>,
@@ -270,7 +271,7 @@ pub(super) fn stroke_damping<R: Real>(
 /// ```
 ///
 /// Drag opposes the stroke. The power of the drag, R_cp T ẋ D, is the power that the actuator loses to the
-/// air. If `harmonics` is true, the coefficients also contain the terms of `aero::Harmonics`.
+/// air. If `harmonics` is true, the lift and drag coefficients also contain the terms of `aero::Harmonics`.
 #[inline(always)]
 pub(super) fn lift_and_drag<R: Real>(
     c: &Constants<R>,
@@ -314,8 +315,8 @@ pub(super) fn load<R: Real>(
     }
 }
 
-/// Returns the power that charges the plates' capacitance (W): C_p (V₁V̇₁ + V₂V̇₂). The mean of this power over a
-/// period is zero.
+/// Returns the power that charges the plates' capacitance (W): C_p (V₁V̇₁ + V₂V̇₂). The mean of the charging
+/// power over a period is zero.
 #[inline(always)]
 pub(super) fn charging_power<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2]) -> R {
     let [v_1, v_2] = [plates[0].voltage, plates[1].voltage];
@@ -345,8 +346,8 @@ pub(super) fn currents<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], x: R, 
     ]
 }
 
-/// Returns the currents of the dielectric loss in both plates (A): conductance times the difference between the voltage
-/// and its mean.
+/// Returns the currents of the dielectric loss in both plates (A): conductance times the difference between
+/// the voltage and the mean voltage.
 #[inline(always)]
 pub(super) fn leakage<R: Real>(c: &Constants<R>, plates: &[Plate<R>; 2], means: [R; 2]) -> [R; 2] {
     let [v_1, v_2] = [plates[0].voltage.value, plates[1].voltage.value];

@@ -7,8 +7,8 @@ use crate::body::{BodyMotion, BodyTerms};
 use crate::parameter::Invalid;
 use crate::quadrature::gauss_beta;
 
-/// Number of strips. With four strips, the forces at zero body motion are exact. The first derivatives of the
-/// forces with respect to body motion are also exact.
+/// Number of strips. With four strips, the sums over the strips are exact if the body is at rest. The first
+/// derivatives of the forces with respect to body motion are also exact.
 const STRIPS: usize = 4;
 
 crate::per_lane! {
@@ -27,8 +27,8 @@ impl Moving<f64> {
     pub(super) const REST: Moving<f64> =
         Moving { motion: BodyMotion::REST, strips: [ObliqueStrip::NONE; STRIPS] };
 
-    /// Returns the motion of the body and the strips of the wing. If `terms` is `BodyTerms::None`, the
-    /// function returns a body at rest.
+    /// Returns the motion of the body and the strips of the wing. If `terms` is `BodyTerms::None`, the result
+    /// describes a body at rest.
     ///
     /// # Errors
     /// Returns an error if the body moves and `centre_of_pressure` is "literal", or if no wing has the given

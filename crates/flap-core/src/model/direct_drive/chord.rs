@@ -14,8 +14,8 @@ use crate::quadrature::gauss_legendre;
 pub(super) const BLADES: usize = 8;
 
 impl Params {
-    /// Returns a copy of the parameters in which flap has computed some values from the chord shape. These
-    /// values are the mean chord, the midspan chord, and the shape moments of Eqs. (22) and (33).
+    /// Returns a copy of the parameters in which flap has computed some values from the chord shape. The
+    /// computed values are the mean chord, the midspan chord, and the shape moments of Eqs. (22) and (33).
     #[must_use]
     pub fn with_chord_moments(self) -> Params {
         let cuts = elements(&self);

@@ -97,8 +97,8 @@ crate::per_lane! {
         /// Centre of pressure at an attack angle of zero, in chords, Eq. (24).
         pub pressure_offset: R,
         /// Factors that select one of three definitions of the attack angle: π/2 − σψ (relative to the
-        /// motion), π/2 − |ψ|, and π/2 − ψ. The factor of the selected definition is 1, and the two other
-        /// factors are 0.
+        /// motion), π/2 − |ψ|, and π/2 − ψ. The factor of the selected definition of the attack angle is 1,
+        /// and the two other factors are 0.
         pub attack: [R; 3],
 
         /// Sign of the added mass in the lift. With +1, F_am sin ψ is subtracted from the lift. With −1, F_am

@@ -5,8 +5,8 @@
 //! [`super::rhs`] computes the same derivatives as this module, apart from rounding errors.
 //!
 //! Body motion requires blade elements, because each blade element then has its own direction of flow. The
-//! aerodynamic functions of this module are not inlined into other equations. The additional terms therefore
-//! need no computing time if they are zero.
+//! aerodynamic functions of this module are not inlined into the equations of the paper. If all additional
+//! terms are zero, they therefore need no computing time.
 
 use super::constants::Constants;
 use super::rhs::{Aerodynamics, added_mass, aerodynamics, balance_in};
@@ -47,7 +47,7 @@ impl<R: Real> Air<R> {
 }
 
 /// Returns the aerodynamic forces on the wing at the state `y`. On a moving body, the function evaluates
-/// Eqs. (19) to (26) for each blade element, with the direction of the flow past this element. The rotational
+/// Eqs. (19) to (26) for each blade element, with the direction of the flow past the element. The rotational
 /// drag is computed from Eq. (32).
 #[inline(always)]
 pub(super) fn air<R: Real>(

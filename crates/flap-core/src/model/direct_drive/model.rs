@@ -299,7 +299,8 @@ impl Model<4> for DirectDrive {
     }
 
     /// The mean electrical power is ⟨Vj⟩ = −⟨M_tr,y φ̇ + (M_tr,x′ + M_rot) ψ̇⟩ + ⟨damping⟩ + ⟨dielectric
-    /// loss⟩. All other energy is stored and returned within a period.
+    /// loss⟩. Energy that is not lost to air, damping or the dielectric is stored and returned within a
+    /// period.
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         cycle.power.balance(&[
             cycle.power_translational,

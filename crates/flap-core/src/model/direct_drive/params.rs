@@ -15,7 +15,7 @@ crate::parameters! {
     pub struct Params {
         ["drive"]
         /// Peak-to-peak drive voltage: twice V_0 of Ozaki and Hamaguchi (2018). If drive_shape is
-        /// "harmonics", drive_voltage_pp is the peak-to-peak voltage of the first harmonic alone.
+        /// "harmonics", drive_voltage_pp is the peak-to-peak voltage of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "2 V_0", Number(NonNegative)) 60.0,
         /// Constant part of the drive voltage. The drive voltage of Ozaki and Hamaguchi (2018) is V_0 sin(w t) + V_0.
         drive_bias: Option<f64> = ("V", "V_0", Following(Any, "half of drive_voltage_pp")) None,
@@ -31,10 +31,11 @@ crate::parameters! {
         wing_length: f64 = ("m", "R", Number(Positive)) 17.0e-3,
         /// Mean chord of the wing.
         mean_chord: f64 = ("m", "c", Number(Positive), scales_with: &[("wing_length", 1.0)]) 6.51e-3,
-        /// Distance from the stroke axis to the root of the wing. Ozaki and Hamaguchi (2018) do not give this distance.
+        /// Distance from the stroke axis to the root of the wing. Ozaki and Hamaguchi (2018) do not give the
+        /// value of wing_offset.
         wing_offset: Option<f64> = ("m", "x_r", Following(Any, "half of actuator_length: the stroke axis is at mid-actuator")) None,
-        /// Chord of the wing at half of the wing length, for flow_direction = "uniform". Ozaki and Hamaguchi (2018) do
-        /// not give this chord.
+        /// Chord of the wing at half of the wing length, for flow_direction = "uniform". Ozaki and Hamaguchi
+        /// (2018) do not give the value of midspan_chord.
         midspan_chord: Option<f64> = ("m", "c(R/2)", Following(Positive, "mean_chord")) None,
         /// Mass of the wing.
         wing_mass: f64 = ("kg", "M_w", Number(Positive), scales_with: &[("wing_length", 2.0)]) 2.31e-6,
@@ -42,7 +43,7 @@ crate::parameters! {
         mass_centre_span: f64 = ("m", "r_g", Number(Any), scales_with: &[("wing_length", 1.0)]) 9.42e-3,
         /// Chordwise position of the wing's centre of mass, positive towards the leading edge. The centre of
         /// mass of a real wing is behind the leading edge, so mass_centre_chord is negative. Ozaki and
-        /// Hamaguchi (2018) print its magnitude.
+        /// Hamaguchi (2018) print the magnitude without the sign.
         mass_centre_chord: f64 = ("m", "y_g", Number(Any), scales_with: &[("wing_length", 1.0)]) -2.48e-3,
         /// Moment of inertia of the wing about the spanwise axis through its centre of mass.
         wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.81e-12,
@@ -66,11 +67,11 @@ crate::parameters! {
         /// or one direction for each blade element ("blade"). With "uniform", the direction is computed from
         /// the mean velocity of the wing, as in Ozaki and Hamaguchi (2018). With "blade", the directions are
         /// computed from the velocities of the blade elements. With "blade", flap computes the shape moments,
-        /// rotation_moment and midspan_chord from the chord shape, and ignores values given for these
-        /// parameters.
+        /// rotation_moment and midspan_chord from the chord shape, and ignores the values that you set for
+        /// these parameters.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_1(2r/R - 1) in
-        /// chord / mean_chord. The constant term of this series of Legendre polynomials is 1. Ozaki and
+        /// chord / mean_chord. The constant term of the series of Legendre polynomials is 1. Ozaki and
         /// Hamaguchi (2018) give no chord shape, so the coefficients were fitted to the published shape
         /// moments.
         chord_legendre_1: f64 = ("", "a_1", Number(Any)) 0.0562,
@@ -169,8 +170,8 @@ crate::parameters! {
         /// Hamaguchi (2018) do not use circulation_factor.
         circulation_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
         /// Factor that multiplies the force of the rotational drag along the wing's normal. With
-        /// rotation_force_factor = 1, this force is consistent with the moment of the rotational drag in
-        /// Eq. (32). Ozaki and Hamaguchi (2018) do not use rotation_force_factor.
+        /// rotation_force_factor = 1, the force along the normal is consistent with the moment of the
+        /// rotational drag in Eq. (32). Ozaki and Hamaguchi (2018) do not use rotation_force_factor.
         rotation_force_factor: f64 = ("", "", Number(NonNegative), default: 0.0) 0.0,
 
         ["readings of the paper"]

@@ -297,8 +297,8 @@ pub(super) fn load<R: Real>(
     }
 }
 
-/// Returns the current j_A = C_p V̇ + Γ φ̇ into the actuator (A), Eq. (39). By reciprocity, Γ is also the
-/// torque per voltage. The current of the dielectric loss is not included.
+/// Returns the current j_A = C_p V̇ + Γ φ̇ into the actuator (A), Eq. (39). By reciprocity, the charge per
+/// stroke angle Γ is also the torque per voltage. The current of the dielectric loss is not included.
 #[inline(always)]
 pub(super) fn current<R: Real>(c: &Constants<R>, drive: &Wave<R>, phi_dot: R) -> R {
     c.c_p * drive.rate + c.gamma * phi_dot

@@ -81,7 +81,7 @@ fn attitude<R: Real>(side: R, phi: R) -> Attitude<R> {
 /// C_l = 0.225 + 1.58 sin(2.13 B − 7.2°)     C_d = 1.92 − 1.55 cos(2.04 B − 9.82°)
 /// ```
 ///
-/// If `harmonics` is true, the coefficients also contain the terms of `aero::Harmonics`.
+/// If `harmonics` is true, the lift and drag coefficients also contain the terms of `aero::Harmonics`.
 #[inline(always)]
 pub(super) fn coefficients<R: Real>(c: &Air<R>, harmonics: bool, attack: R) -> [R; 2] {
     let [lift_offset, lift_amplitude, lift_slope, lift_phase] = c.lift;
@@ -108,8 +108,8 @@ pub(super) fn coefficients<R: Real>(c: &Air<R>, harmonics: bool, attack: R) -> [
 /// The values of |α| for the two directions of flow add up to π. The coefficients C_l and C_d and the angle B
 /// are therefore equal for all strips. The function inserts the formula of d_cp into Q_φ, which leads to the
 /// sums Σ c q s and Σ c q. The sum Σ c q is a quadratic form of the stroke rate and the pitch rate. If
-/// `harmonics` is true, C_l, C_d and d_cp also contain the terms of `aero::Harmonics`. In d_cp, these terms
-/// are proportional to s.
+/// `harmonics` is true, C_l, C_d and d_cp also contain the terms of `aero::Harmonics`. The terms of
+/// `aero::Harmonics` in d_cp are proportional to s.
 #[inline(always)]
 pub(super) fn aerodynamics<R: Real>(
     c: &Constants<R>,
@@ -149,9 +149,9 @@ pub(super) fn aerodynamics<R: Real>(
 /// sign of the switching function, which equals the sign of tan φ. The lift coefficient C_l changes its sign
 /// when σ changes.
 ///
-/// At φ = 0 the chord is vertical, and C_l jumps between −C_l(90°) and C_l(90°). The lift therefore jumps.
-/// The equations of motion do not jump at φ = 0, because they contain C_l only multiplied by sin φ. At |φ| =
-/// 90°, C_l jumps between −C_l(0) and C_l(0), and the equations of motion jump too.
+/// At φ = 0 the chord is vertical, and C_l jumps between −C_l(90°) and C_l(90°). At φ = 0, the lift therefore
+/// jumps. The equations of motion do not jump at φ = 0, because they contain C_l only multiplied by sin φ. At
+/// |φ| = 90°, C_l jumps between −C_l(0) and C_l(0), and the equations of motion jump too.
 #[inline(always)]
 pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
     let (sin, cos) = (phi * 2.0).sin_cos();
@@ -168,10 +168,10 @@ pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
 /// N = L_r/sin φ − Σ m_a (r A + κc φ̈)     L = L_t + N sin φ     D = D_t − N cos φ     m_a = π/4 ρ c²Δr
 /// ```
 ///
-/// The moments of lift and drag are the same sums with the additional factor r. The span moment M_s is −Q_φ,
-/// because a positive φ moves the trailing edge in the direction of the stroke. In M_s, the sums of the added
-/// mass have the additional factor κc. Here κc is the distance c/2 − z_RA of Eq. (7). In the equations of
-/// motion, the added mass acts at the centre of mass of the wing, Eq. (19).
+/// The moments of lift and drag are the sums for lift and drag with the additional factor r. The span moment
+/// M_s is −Q_φ, because a positive φ moves the trailing edge in the direction of the stroke. In M_s, the sums
+/// of the added mass have the additional factor κc. Here κc is the distance c/2 − z_RA of Eq. (7). In the
+/// equations of motion, the added mass acts at the centre of mass of the wing, Eq. (19).
 #[inline(always)]
 pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
     let (sin, cos) = y[1].sin_cos();

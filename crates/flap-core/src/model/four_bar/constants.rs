@@ -110,10 +110,10 @@ crate::per_lane! {
         /// r²c²Δr.
         pub added_stroke_2: R,
         /// Moment of the added mass about the shoulder, divided by the pitch acceleration (kg·m²): π/4 ρ Σ r
-        /// κc³Δr. Here κc is the distance c/2 − z_RA of Eq. (7).
+        /// κc³Δr. In this sum, κc is the distance c/2 − z_RA of Eq. (7).
         pub added_pitch_1: R,
         /// Moment of the added mass about the rotation axis, divided by the pitch acceleration (kg·m²): π/4 ρ
-        /// Σ κ²c⁴Δr. Here κc is the distance c/2 − z_RA of Eq. (7).
+        /// Σ κ²c⁴Δr. In this sum, κc is the distance c/2 − z_RA of Eq. (7).
         pub added_span: R,
     }
 }
@@ -150,7 +150,7 @@ impl Constants<f64> {
     /// Returns the constants of a design point for a body at rest.
     ///
     /// # Errors
-    /// - The four-bar has no neutral position, or cannot be assembled in this position.
+    /// - The four-bar has no neutral position, or cannot be assembled in its neutral position.
     /// - The chord is negative somewhere.
     /// - The number of strips is not allowed.
     /// - The mass matrix is not positive definite at every position of the wing.
@@ -233,7 +233,7 @@ fn actuator(p: &Params, rate: f64) -> Actuator<f64> {
     }
 }
 
-/// Returns the four-bar in its neutral position.
+/// Returns the four-bar linkage in its neutral position.
 fn four_bar(p: &Params) -> Result<FourBarLinkage<f64>, Invalid> {
     let lengths = [p.ground_link, p.input_link, p.coupler_link, p.output_link];
     let Some(neutral) = p.neutral_angle.or_else(|| FourBarLinkage::stationary_angle(lengths)) else {
@@ -249,9 +249,9 @@ fn four_bar(p: &Params) -> Result<FourBarLinkage<f64>, Invalid> {
     })
 }
 
-/// Returns the moments of inertia of the links. Links whose inertia is not set are uniform rods. The inertias
-/// of the input link and the output link are about their fixed pivots. The inertia of the coupler is about
-/// its centre.
+/// Returns the moments of inertia of the links. Links whose inertia is not set are uniform rods. The moments
+/// of inertia of the input link and the output link are about the fixed pivots of these links. The moment of
+/// inertia of the coupler is about the centre of the coupler.
 fn link_inertias(p: &Params) -> LinkInertias<f64> {
     let about_centre =
         |given: Option<f64>, mass: f64, length: f64| given.unwrap_or(mass * length * length / 12.0);
@@ -266,8 +266,8 @@ fn link_inertias(p: &Params) -> LinkInertias<f64> {
     }
 }
 
-/// Returns the inertia of the wing with the added mass at the centre of mass, Eqs. (13) and (19). The result
-/// also contains the damping and stiffness of the joints.
+/// Returns the inertia of the wing with the added mass at the centre of mass, Eqs. (13) and (19). The
+/// function also sets the damping and stiffness of the wing's joints.
 ///
 /// `rate` is the angular frequency of the drive (rad/s), and `spring` is the stiffness of actuator and series spring at
 /// the slider-crank (N/m).

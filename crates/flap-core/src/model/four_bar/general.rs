@@ -5,10 +5,10 @@
 //! this module, apart from rounding errors.
 //!
 //! On a moving body, each strip has its own direction of flow, and the lift of each strip jumps at a
-//! different time. The aerodynamic functions of this module are not inlined into other equations. The
-//! additional terms therefore need no computing time if they are zero.
+//! different time. The aerodynamic functions of this module are not inlined into the equations of the paper.
+//! If all additional terms are zero, they therefore need no computing time.
 //!
-//! The pitch ψ in [`crate::body`] has the opposite sign of the pitch φ in this model: ψ = −φ.
+//! The pitch ψ in [`crate::body`] has the opposite sign of the pitch φ in the four-bar model: ψ = −φ.
 
 use core::f64::consts::{FRAC_PI_2, PI};
 
@@ -23,8 +23,8 @@ use crate::model::stroke_and_pitch::Balance;
 use crate::num::{Lanes, Real};
 use crate::ode::step::Attempt;
 
-/// Limit of |u_C|/U. Below this limit, the `side` of the switching surface determines the direction of the
-/// flow along the chord.
+/// Limit of |u_C|/U. If |u_C|/U is below the limit, the `side` of the switching surface determines the
+/// direction of the flow along the chord.
 const GRAZING: f64 = 1e-9;
 
 /// Returns the sign of u_C, which is the direction of the flow along the chord.
@@ -266,7 +266,7 @@ fn motion_within<R: Real>(
 /// integral of the load change over the time of reversed flow.
 ///
 /// The function `state` converts the integrated state at a time to the state of the wing. The function
-/// `slope` converts the derivative of the integrated state.
+/// `slope` converts the derivative of the integrated state to the derivative of the state of the wing.
 #[inline(always)]
 pub(super) fn impulse<R: Lanes>(
     c: &Constants<R>,
@@ -349,7 +349,7 @@ const PARTS: usize = 4;
 ///
 /// The part begins at the fraction `begin` of the step. `f_low` and `f_high` are the flow components along
 /// the initial direction of the flow, at the beginning and at the end of the part. The function `value`
-/// returns the same flow component at a given fraction of the step.
+/// returns the flow component along the initial direction at a given fraction of the step.
 #[inline(always)]
 fn reversed<R: Lanes>(begin: f64, [mut f_low, mut f_high]: [R; 2], value: impl Fn(R) -> R) -> [R; 2] {
     let (zero, one) = (f_low.lit(0.0), f_low.lit(1.0));

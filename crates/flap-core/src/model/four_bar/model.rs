@@ -96,8 +96,9 @@ impl Ode<4> for FourBar {
     /// The mean lift over a step that contains a jump is inaccurate. On 816 points of the 75 Hz system at
     /// rtol 1e-6, the search for the jumps needs 7 % more evaluations of the right-hand side. The search
     /// reduces the median error of the mean lift from 9e-4 to 7e-7, and the largest error from 2e-2 to 1e-5.
-    /// These errors are relative to the components of the lift. With the search, every point settles. Without
-    /// the search, a few points in a thousand do not settle.
+    /// The errors of the mean lift are relative to the components of the lift. With the search for the jumps,
+    /// the motion settles at every point. Without the search, the motion does not settle at a few points in a
+    /// thousand.
     const SWITCHES: bool = true;
 
     #[inline(always)]
@@ -212,8 +213,9 @@ impl FourBar {
 
 /// Returns the parameters that depend on a user-defined wing.
 ///
-/// In the model, the rotation axis is at the same fraction of the chord along the whole span. For a
-/// user-defined wing, this fraction is the part of the wing's area that is ahead of the axis.
+/// In the four-bar model, the rotation axis is at the same fraction of the chord along the whole span. For a
+/// user-defined wing, the fraction of the chord is the wing's area ahead of the hinge's axis, divided by the
+/// whole area.
 fn wing(wing: &Wing) -> Vec<(&'static str, f64)> {
     let before = wing.outline.integral(|_, leading, _| leading);
     let mut found = vec![("wing_offset", wing.offset), ("wing_length", wing.outline.length())];
@@ -332,8 +334,8 @@ impl Model<4> for FourBar {
         )
     }
 
-    /// On a moving body, the lift of each strip jumps at a different time. flap does not search for these
-    /// times.
+    /// On a moving body, the lift of each strip jumps at a different time. flap does not search for the times
+    /// of these jumps.
     fn has_slopes(&self) -> bool {
         self.terms.body == BodyTerms::None
     }

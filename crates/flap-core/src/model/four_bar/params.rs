@@ -1,8 +1,9 @@
 //! Parameters of the four-bar model, and presets for the two prototypes of the paper.
 //!
-//! The paper gives the links of one four-bar, voltages, frequencies, and the hinges' stiffness and damping. The paper
-//! also gives the series stiffness, the coefficient C_rot of the rotational drag, and the position of the rotation
-//! axis. All other values are assumed, as the descriptions of the parameters state.
+//! The paper gives the links of one four-bar, voltages, frequencies, and the hinges' stiffness and damping.
+//! The paper also gives the series stiffness, the coefficient C_rot of the rotational drag, and the position
+//! of the rotation axis. All values that the paper does not give are assumed, as the descriptions of the
+//! parameters state.
 
 use crate::aero::{ChordTable, HarmonicParameters};
 use crate::body::BodyParameters;
@@ -19,7 +20,7 @@ crate::parameters! {
     pub struct Params {
         ["drive"]
         /// Peak-to-peak drive voltage. If drive_shape is "harmonics", drive_voltage_pp is the peak-to-peak
-        /// voltage of the first harmonic alone.
+        /// voltage of the fundamental alone.
         drive_voltage_pp: f64 = ("V", "V_pp", Number(NonNegative)) 150.0,
         /// Constant part of the drive voltage.
         drive_bias: f64 = ("V", "V_dc", Number(Any)) 50.0,
@@ -29,8 +30,8 @@ crate::parameters! {
         waveform: WaveformParameters = (flatten) WaveformParameters::SINE,
         /// Parameters of a prescribed stroke.
         stroke: StrokeParameters = (flatten) StrokeParameters::FREE,
-        /// Voltage at which the actuator exerts no force at zero stroke. The value of rest_voltage is assumed, because
-        /// Arabagi et al. (2013) do not give this voltage.
+        /// Voltage at which the actuator exerts no force at zero stroke. The value of rest_voltage is
+        /// assumed, because Arabagi et al. (2013) do not give a rest voltage.
         rest_voltage: Option<f64> = ("V", "V_ref", Following(Any, "drive_bias")) None,
 
         ["actuator"]
@@ -243,8 +244,8 @@ crate::choice! {
 crate::choice! {
     /// Rules for cutting the wing into strips.
     pub enum Quadrature {
-        /// Strips at the nodes of the Gauss-Legendre rule. With 8 strips at these nodes, the result is more accurate
-        /// than with 256 strips of equal width.
+        /// Strips at the nodes of the Gauss-Legendre rule. With 8 strips at the Gauss-Legendre nodes, the
+        /// result is more accurate than with 256 strips of equal width.
         Gauss = "gauss",
         /// Strips of equal width.
         Midpoint = "midpoint",

@@ -61,8 +61,8 @@ pub(super) fn force<R: Real>(c: &Actuator<R>, drive: &Wave<R>, displacement: R) 
     c.stiffness * (c.deflection * (drive.value - c.rest_voltage) - displacement)
 }
 
-/// Returns the displacement δ_a of the actuator's tip (m): the sum of the displacements of slider-crank and series
-/// spring. The paper does not contain this equation.
+/// Returns the displacement δ_a of the actuator's tip (m): the sum of the displacements of slider-crank and
+/// series spring. The paper does not contain the equation for δ_a.
 ///
 /// ```text
 /// δ_a = δ + F/k_sc
@@ -73,7 +73,7 @@ pub(super) fn tip<R: Real>(c: &Actuator<R>, displacement: R, force: R) -> R {
 }
 
 /// Returns the current into the actuator (A). The current follows from the reciprocity of the actuator's
-/// force and charge. The paper does not contain this equation.
+/// force and charge. The paper does not contain the equation for the current.
 ///
 /// ```text
 /// i = C_b V̇ + Γ δ̇_a     δ̇_a = δ′θ̇ + k_eff (γV̇ − δ′θ̇)/k_sc
@@ -84,8 +84,8 @@ pub(super) fn current<R: Real>(c: &Actuator<R>, drive: &Wave<R>, slider_rate: R)
     c.capacitance * drive.rate + c.coupling * tip(c, slider_rate, force_rate)
 }
 
-/// Returns the part of the [`current`] that charges the capacitances of the actuator (A). The mean power of this part
-/// over a period is zero.
+/// Returns the part of the [`current`] that charges the capacitances of the actuator (A). The mean power of
+/// the charging current over a period is zero.
 ///
 /// ```text
 /// (C_b + Γ k_eff γ/k_sc) V̇
@@ -124,8 +124,7 @@ pub(super) fn mass_matrix<R: Real>(c: &Constants<R>, inertia: R, sin: R, cos: R)
 /// ⎣M₁₂ M₂₂⎦ ⎣φ̈⎦   ⎣Q_φ − dφ̇ − k_rot φ + ½J_d sin 2φ θ̇²                  ⎦
 /// ```
 ///
-/// The damping of the stroke includes the damping that is equivalent to the loss factor γ of actuator and
-/// series spring: D + γ k_eff δ′²/ω.
+/// The damping of the stroke is D + γ k_eff δ′²/ω, where γ is the loss factor of actuator and series spring.
 #[inline(always)]
 pub(super) fn balance<R: Real>(c: &Constants<R>, links: &Transmission<R>, side: R, y: &[R; 4]) -> Balance<R> {
     let (sin, cos) = y[1].sin_cos();

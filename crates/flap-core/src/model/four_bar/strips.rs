@@ -53,8 +53,8 @@ impl Moving<f64> {
     /// A body at rest.
     pub(super) const REST: Moving<f64> = Moving { motion: BodyMotion::REST, behind: 0.0, added: 0.0 };
 
-    /// Returns the motion of the body and the constants for this motion. If `terms` is `BodyTerms::None`, the
-    /// body is at rest.
+    /// Returns the motion of the body, and the constants of the wing that the equations need if the body
+    /// moves. If `terms` is `BodyTerms::None`, the result describes a body at rest.
     pub(super) fn of(p: &Params, terms: BodyTerms) -> Result<Moving<f64>, Invalid> {
         if terms == BodyTerms::None {
             return Ok(Moving::REST);
