@@ -27,7 +27,7 @@ pub struct Description<'a> {
     /// Sign convention of the pitch, which flap uses in pictures of the wing.
     ///
     /// The sign is 1 if the trailing edge lags behind the leading edge at a positive pitch, while the stroke
-    /// angle increases. The sign is −1 if the trailing edge leads.
+    /// angle increases. The sign is −1 if the trailing edge leads at a positive pitch.
     pub pitch_sign: i8,
     /// True if the model implements [`Model::load`], which computes the aerodynamic force and moment on the
     /// wing. If [`SolverSettings::loads`](crate::simulate::SolverSettings::loads) is set, the rows contain
@@ -71,7 +71,7 @@ pub struct Derived<M, C, S: SignalSet> {
     /// Function that returns the value of the column in the unit `unit`. The arguments are the model, the
     /// constants of the point, and the signals over a drive period of the orbit.
     ///
-    /// For each signal, the function knows the mean, and the quantities that the
+    /// The signals contain the mean of each signal, and the quantities that the
     /// [measures](super::Signal::measures) of the signal require. Quantities of a signal that no measure
     /// requires are NaN.
     pub value: fn(&M, &C, &S::Of<SignalCycle>) -> f64,
@@ -236,7 +236,7 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     }
 
     /// Returns the relative difference between two computations of the same mean power, after
-    /// [`Model::balance_energy`]. An integration without numerical errors would give a difference of zero.
+    /// [`Model::balance_energy`]. An integration without numerical errors would give two equal mean powers.
     ///
     /// If the energy audit exceeds the solver setting `accuracy`, flap integrates the point again. The
     /// default is 0.
@@ -284,8 +284,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
 
     /// Returns the number of parts into which each step is divided to find extrema of the signals.
     ///
-    /// The size of the steps depends only on the motion. Return a number above 1 if signals change faster
-    /// than the motion.
+    /// The size of the integration steps depends only on the motion. Return a number above 1 if signals
+    /// change faster than the motion.
     #[inline(always)]
     fn parts(&self) -> u32 {
         1

@@ -4,7 +4,7 @@
 //! The model of each paper has its own folder. A model consists of:
 //!
 //! - a parameter struct with its table ([`crate::parameters!`]) and the published presets,
-//! - constants derived from the parameters once per point ([`crate::per_lane!`]),
+//! - constants that flap computes from the parameters, once for each point ([`crate::per_lane!`]),
 //! - the signals, declared as a struct with one field for each signal ([`crate::signals!`]),
 //! - the equations of motion ([`crate::ode::Ode`]) and the formulas of the signals ([`Model`]), in code for
 //!   scalars and for lanes,

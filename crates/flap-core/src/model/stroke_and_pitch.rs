@@ -76,7 +76,7 @@ pub fn slope<R: Real>(drive: &Drive, wave: &Wave<R>, dy: &[R; 4]) -> [R; 4] {
     if drive.prescribes_stroke() { [wave.rate, dy[1], wave.bend, dy[3]] } else { *dy }
 }
 
-/// Returns the start of a simulation from rest, as a result for [`Model::start`](super::Model::start).
+/// Returns the result of [`Model::start`](super::Model::start) for a simulation that starts from rest.
 ///
 /// If the stroke is prescribed, the initial stroke is the prescribed stroke at time zero. `sizes` contains
 /// the typical sizes of stroke and pitch (rad).
@@ -92,8 +92,8 @@ pub fn start<C>(
     Start::new(constants, y, drive_constants.period(), [stroke, pitch, stroke * rate, pitch * rate])
 }
 
-/// Returns the state, the derivative of the state and the drive of a wing with imposed stroke and pitch, as a
-/// result for [`ExperimentModel::placed`](super::ExperimentModel::placed).
+/// Returns the state, the derivative of the state and the drive of a wing with imposed stroke and pitch, for
+/// an implementation of [`ExperimentModel::placed`](super::ExperimentModel::placed).
 ///
 /// `stroke` and `pitch` contain an angle (rad) and its first and second time derivatives (rad/s, rad/s²).
 pub fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {

@@ -140,7 +140,8 @@ crate::parameters! {
         piezo_modulus_max: f64 = ("Pa", "E_max", Number(Positive)) 81e9,
         /// Relative reduction of the Young's modulus of the piezoelectric plates per electric field. The
         /// reduction is proportional to the mean of the electric fields in the two plates. The mean of the
-        /// two fields is constant over a period. Jafferis et al. (2016) do not use modulus_decline.
+        /// fields in both plates is constant over a period. Jafferis et al. (2016) do not use
+        /// modulus_decline.
         modulus_decline: f64 = ("m/V", "", Number(Any), default: 0.0) 0.0,
         /// Strain in the middle of the transition between piezo_modulus_min and piezo_modulus_max, Eq. (4). A strain is
         /// negative in compression.

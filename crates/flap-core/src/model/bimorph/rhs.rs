@@ -30,8 +30,8 @@ pub struct Plate<R> {
     pub force_bend: R,
 }
 
-/// Returns the two plates if the waveform has the value `wave`. The voltages of the plates are in antiphase,
-/// Eq. (7).
+/// Returns voltages and forces of the two plates for the value `wave` of the waveform. The voltages of the
+/// plates are in antiphase, Eq. (7).
 ///
 /// ```text
 /// V₁ = ½V_pp (1 − wave)     V₂ = ½V_pp (1 + wave)

@@ -101,8 +101,8 @@ crate::per_lane! {
         /// and the two other factors are 0.
         pub attack: [R; 3],
 
-        /// Sign of the added mass in the lift. With +1, F_am sin ψ is subtracted from the lift. With −1, F_am
-        /// sin ψ is added, as printed in Eq. (35).
+        /// Sign of the added mass in the lift. If the sign is +1, F_am sin ψ is subtracted from the lift. If
+        /// the sign is −1, F_am sin ψ is added, as printed in Eq. (35).
         pub lift_sign: R,
 
         /// Thickness t₀ of the piezoelectric layer (m).

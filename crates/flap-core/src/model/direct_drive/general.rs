@@ -4,9 +4,9 @@
 //! rotational drag along the wing's normal, and nonlinear springs. If all additional terms are zero,
 //! [`super::rhs`] computes the same derivatives as this module, apart from rounding errors.
 //!
-//! Body motion requires blade elements, because each blade element then has its own direction of flow. The
-//! aerodynamic functions of this module are not inlined into the equations of the paper. If all additional
-//! terms are zero, they therefore need no computing time.
+//! Body motion requires blade elements, because on a moving body each blade element has its own direction of
+//! flow. The aerodynamic functions of this module are not inlined into the equations of the paper. If the
+//! terms that the paper leaves out are all zero, the module needs no computing time.
 
 use super::constants::Constants;
 use super::rhs::{Aerodynamics, added_mass, aerodynamics, balance_in};

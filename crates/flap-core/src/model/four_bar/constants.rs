@@ -153,7 +153,7 @@ impl Constants<f64> {
     /// - The four-bar has no neutral position, or cannot be assembled in its neutral position.
     /// - The chord is negative somewhere.
     /// - The number of strips is not allowed.
-    /// - The mass matrix is not positive definite at every position of the wing.
+    /// - The mass matrix is not positive definite at some position of the wing.
     /// - A constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let cuts = strips(p)?;
