@@ -1,20 +1,21 @@
-//! Derivatives of measures with respect to parameters: names and units of columns, and sizes of changes.
+//! Derivatives of measures with respect to parameters: names and units of their columns, and reference sizes
+//! for small changes of parameters.
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{NoSlope, Simulator};
 use flap_core::vehicle::standing;
 
-/// Change of a parameter to which derivatives refer.
+/// Change of a parameter for which derivatives are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Per {
-    /// One per cent of the parameter.
+    /// The derivative is the change of the measure per one per cent of the parameter.
     Cent,
-    /// One SI unit of the parameter.
+    /// The derivative is the change of the measure per SI unit of the parameter.
     Unit,
 }
 
-/// Returns the name of the column with the change of the measure `of` per per cent or per SI unit of the parameter
-/// `by`.
+/// Returns the name of the column that contains the derivative of the measure `of` with respect to the
+/// parameter `by`.
 ///
 /// ```
 /// use flap_sweep::derivative::{Per, column_name};
@@ -29,7 +30,8 @@ pub fn column_name(of: &str, by: &str, per: Per) -> String {
     }
 }
 
-/// Returns measure, parameter and change from a column name of [`column_name`]; `None` for other names.
+/// Splits a name that [`column_name`] returned into the measure, the parameter and the change. If the name
+/// has another form, returns `None`.
 ///
 /// ```
 /// use flap_sweep::derivative::{Per, parts};
@@ -44,14 +46,16 @@ pub fn parts(column: &str) -> Option<(&str, &str, Per)> {
         .find_map(|(between, per)| rest.split_once(between).map(|(of, by)| (of, by, per)))
 }
 
-/// Returns the number that stands for a set of reasons for missing derivatives, one bit per reason; NaN for the empty
-/// set. The reasons are stored as a number because the measures of a row are numbers.
+/// Encodes the reasons why derivatives are missing as one number, with one bit for each reason. If there are
+/// no reasons, returns NaN. A row can store the reasons only as a number, because all measures of a row are
+/// numbers.
 pub(crate) fn gap_code(reasons: impl Iterator<Item = NoSlope>) -> f64 {
     let set = reasons.fold(0_u32, |set, reason| set | 1 << reason as u32);
     if set == 0 { f64::NAN } else { f64::from(set) }
 }
 
-/// Returns the reasons in the set that [`gap_code`] turned into `code`, in the order of [`NoSlope::ALL`].
+/// Decodes `code`, a number from [`gap_code`], into the reasons why derivatives are missing. The reasons are
+/// in the order of [`NoSlope::ALL`].
 pub(crate) fn reasons_of(code: f64) -> impl Iterator<Item = NoSlope> {
     #[expect(
         clippy::cast_possible_truncation,
@@ -62,7 +66,8 @@ pub(crate) fn reasons_of(code: f64) -> impl Iterator<Item = NoSlope> {
     NoSlope::ALL.into_iter().filter(move |reason| set >> *reason as u32 & 1 == 1)
 }
 
-/// Returns the unit of a derivative: the measure's unit `of`, per per cent or per unit `by` of the parameter.
+/// Returns the unit of a derivative as text. `of` is the unit of the measure, and `by` is the SI unit of the
+/// parameter.
 ///
 /// ```
 /// use flap_sweep::derivative::{Per, unit};
@@ -84,8 +89,8 @@ pub fn unit(of: &str, by: &str, per: Per) -> String {
     }
 }
 
-/// Returns the description of the column with the change of the measure `of`, which has this unit, by the parameter
-/// `by`.
+/// Returns the description of a column that contains a derivative. `of` is the measure, `unit` is the unit of
+/// the measure, and `by` is the parameter.
 pub fn meaning(of: &str, unit: &str, by: &str, per: Per) -> String {
     let change = match per {
         Per::Cent => "1 %",
@@ -95,16 +100,16 @@ pub fn meaning(of: &str, unit: &str, by: &str, per: Per) -> String {
     format!("change of {of}{unit} per {change} of {by}")
 }
 
-/// Share of the largest published value below which a value counts as small.
+/// A parameter value counts as small if it is less than this fraction of the largest published value.
 ///
-/// This share is not larger because robots may be far smaller than the published robots.
+/// The fraction is not larger because some robots are far smaller than the published robots.
 const SMALL: f64 = 1e-3;
 
-/// Returns the size (SI) to which relative changes of a parameter refer; `None` if the parameter is zero and has no
-/// typical size.
+/// Returns the reference size of a parameter in SI units: a change of one per cent is one per cent of this
+/// size. If the parameter is zero and has no typical size, returns `None`.
 ///
-/// The size is the parameter's value. If the value is zero, or so small that changes would be lost in rounding, the
-/// size is a typical size.
+/// The reference size is usually the parameter's value. If the value is zero or small, and zero is allowed,
+/// the reference size is a typical size of the parameter.
 pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let value = standing(simulator.parameters(), values, index);
     let known = (value != 0.0 && value.is_finite()).then_some(value);
@@ -117,13 +122,14 @@ pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> O
     typical.filter(|typical| known.is_none_or(|value| value.abs() < *typical)).or(known)
 }
 
-/// Returns true if a parameter is zero and cannot be negative, so that its differences are one-sided.
+/// Returns true if a parameter is zero and cannot be negative. For such a parameter, finite differences must
+/// be one-sided.
 pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -> bool {
     let (Kind::Number(range) | Kind::Following(range, _)) = parameters[index].kind else { return false };
     standing(parameters, values, index) == 0.0 && !range.contains(-f64::MIN_POSITIVE)
 }
 
-/// Returns a value after a change by a share of its [`size`].
+/// Returns `value` plus the fraction `share` of the reference size from [`size`].
 pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
     match size {
         Some(size) if size != value => share.mul_add(size, value),
@@ -131,10 +137,12 @@ pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
     }
 }
 
-/// Returns the typical size of a parameter (SI).
+/// Returns the typical size of a parameter in SI units.
 ///
-/// For a parameter of one wing or a difference, the typical size is the size of the parameter of all wings. For any
-/// other parameter, the typical size is the published size, or the size of such quantities in insect-scale robots.
+/// For a parameter of one wing or a left-right difference, the typical size is the reference size of the
+/// parameter of all wings. For any other parameter, the typical size is the largest published value, or a
+/// usual value for insect-scale robots. A parameter with published values has a typical size only if its
+/// value is small.
 fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let parameters = simulator.parameters();
     let parameter = &parameters[index];
@@ -167,7 +175,8 @@ fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f6
     }
 }
 
-/// Returns the largest value of a parameter in the presets of the model; zero if no preset has a value.
+/// Returns the largest magnitude of a parameter in the presets of the model, or zero if no preset has a
+/// value.
 fn published(simulator: &dyn Simulator, index: usize) -> f64 {
     let values = simulator.presets().iter().filter_map(|preset| (preset.values)().get(index).copied());
     values.filter(|value| value.is_finite()).fold(0.0, |largest, value| value.abs().max(largest))

@@ -1,4 +1,4 @@
-//! Text of input files, with a limit on the size of the files.
+//! Reads input files, with a limit on the size of each file.
 
 use std::fs::{self, File};
 use std::io::{self, Read};
@@ -7,11 +7,11 @@ use std::path::Path;
 use crate::notation::text::position;
 use crate::system::is_pipe_of_shell;
 
-/// Largest number of bytes of a file written by a person or an instrument: grids, devices, outlines, waveforms,
-/// motions, image points.
+/// Largest allowed number of bytes in a file that a person or an instrument writes: grids, devices, wing
+/// outlines, waveforms, motions, points of images.
 pub const MOST_BYTES: u64 = 16 << 20;
 
-/// Largest number of bytes of a file written by a program: lists of points, sidecars.
+/// Largest allowed number of bytes in a file that a program writes, such as a list of points or a sidecar.
 pub const MOST_LISTED: u64 = 256 << 20;
 
 /// Reason why an input file cannot be used.
@@ -23,7 +23,7 @@ pub enum InputError {
     /// The path is a folder.
     #[error("this is a folder, not a file")]
     Folder,
-    /// The path is a device, a named pipe or a socket, which may be endless.
+    /// The path is a device file such as `/dev/zero`, a named pipe or a socket, and its data may never end.
     #[error("this is a device or a pipe, not a file")]
     Endless,
     /// The file is too large.
@@ -32,7 +32,7 @@ pub enum InputError {
     /// The operating system cannot read the file.
     #[error("cannot be read: {0}")]
     Unreadable(#[source] io::Error),
-    /// The file does not contain text.
+    /// The file is not UTF-8 text.
     #[error("not UTF-8 text at byte {byte} (line {line}, column {column}): save the file as UTF-8")]
     NotUtf8 {
         /// Offset of the first byte that is not UTF-8, counted from 0.
@@ -44,7 +44,8 @@ pub enum InputError {
     },
 }
 
-/// Converts to the error of the operating system, or to [`io::ErrorKind::InvalidData`] with the reason.
+/// Returns the error of the operating system if there is one. Otherwise returns an error with the message of
+/// the [`InputError`] and a suitable [`io::ErrorKind`].
 impl From<InputError> for io::Error {
     fn from(error: InputError) -> io::Error {
         let kind = match error {
@@ -67,7 +68,7 @@ pub fn text(path: &Path, most: u64) -> Result<String, InputError> {
     of_bytes(beginning(open(path)?, most)?, most)
 }
 
-/// Returns the bytes of the file at `path`, at most `most`.
+/// Returns the content of the file at `path`, which may have at most `most` bytes.
 ///
 /// # Errors
 /// [`InputError`] if the path is not a file, or the file is too large or unreadable.
@@ -77,8 +78,8 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
 
 /// Opens the file at `path`.
 ///
-/// A pipe that the shell opened for the command (`<(command)`, `/dev/stdin`) is accepted, because the pipe ends with
-/// the command line.
+/// The path may be a pipe that the shell opened, such as `/dev/stdin` or `<(command)`. The data of such a
+/// pipe end when the command that writes into the pipe ends.
 ///
 /// # Errors
 /// [`InputError`] if the path is not a file, or cannot be opened.
@@ -106,7 +107,7 @@ pub fn beginning(source: impl Read, most: u64) -> Result<Vec<u8>, InputError> {
     Ok(bytes)
 }
 
-/// Returns the text of the bytes from [`beginning`].
+/// Converts bytes that [`beginning`] returned to text.
 ///
 /// # Errors
 /// [`InputError`] if there are more than `most` bytes, or the bytes are not text.

@@ -2,22 +2,25 @@
 //!
 //! # Modules
 //!
-//! Each module uses only modules above it in this list:
+//! A module in the following list uses only modules above itself:
 //!
 //! - `system`: operations that differ between operating systems.
 //! - [`notation`]: numbers, units, times and formulas as text.
-//! - [`input`]: text of input files, with a limit on their size.
-//! - [`derivative`]: derivatives of measures: names, units, and sizes of changes.
-//! - [`resonance`]: rows of designs, each at its own resonance.
-//! - [`vehicle`]: control matrix, trims, stability of hover and flight of vehicles, and rows with these numbers.
+//! - [`input`]: reads input files, with a limit on the size of each file.
+//! - [`derivative`]: derivatives of measures: names and units of columns, and reference sizes of parameters.
+//! - [`resonance`]: search for the resonance of a design, and rows of designs at their resonances.
+//! - [`vehicle`]: control matrix, trims, stability of hover and flight of vehicles, and rows that contain
+//!   these results.
 //! - [`plan`]: the design space: axes, samples, derived parameters, conditions, selections.
-//! - [`table`]: columns of rows, rows as text, formats of files.
+//! - [`table`]: columns of results, rows as text, and file formats.
 //! - [`refine`]: the points that a refined grid adds after the points of its axes.
 //! - [`picture`]: properties of pictures that are the same in the command line and in Python.
 //! - [`grid`]: conversion of grid files to plans, with diagnostics.
 //! - [`run`]: the parallel runner, which passes rows to sinks in the order of the points.
-//! - [`study`]: response curves, deviations of parameters, most important parameters, surveys of a plan, optima.
-//! - [`files`]: result files: formats, sidecars, journals, checksums; resuming, merging, running again.
+//! - [`study`]: studies of designs, such as response curves, tolerances of parameters, most important
+//!   parameters and optima.
+//! - [`files`]: result files with their sidecars, journals and checksums. The module also resumes, merges and
+//!   repeats sweeps.
 
 pub mod derivative;
 pub mod files;

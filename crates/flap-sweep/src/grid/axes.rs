@@ -1,4 +1,4 @@
-//! The sections `[axes]` and `[zip]`, and checks of axes of every kind.
+//! Reads the sections `[axes]` and `[[zip]]` of a grid file, and checks all axes of the grid.
 
 use std::ops::Range;
 
@@ -15,17 +15,18 @@ use crate::plan::axes::{Axis, TooManyPoints, Values};
 /// An axis and its position in the file.
 pub(super) struct Placed {
     pub(super) axis: Axis,
-    /// Key of the axis, or header of the axis's table `[[zip]]`.
+    /// Position of the axis's key, or of the header of the axis's table `[[zip]]`.
     pub(super) span: Range<usize>,
-    /// Keys of the parameters of the axis, in the order of the axis.
+    /// Position of the key of each parameter that the axis varies.
     pub(super) keys: Vec<Range<usize>>,
-    /// For each parameter, true if the values of the parameter have units, see [`value::has_units`].
+    /// For each parameter that the axis varies, the result of [`value::has_units`].
     pub(super) with_units: Vec<Option<bool>>,
 }
 
-/// Reads the axes of the section.
+/// Reads the axes of the section `[axes]`.
 ///
-/// For a parameter with wrong values, the result contains an axis without values, which is used in later checks.
+/// If the values of a parameter are wrong, its axis has no values, so that later checks can still use the
+/// axis.
 pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Placed> {
     let mut axes = Vec::new();
     for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {
@@ -43,13 +44,13 @@ pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Pl
     axes
 }
 
-/// Returns the empty list, which replaces wrong values.
+/// Returns an empty list of values, for an axis whose values in the file are wrong.
 pub(super) fn none() -> Values {
     Values::List(Vec::new())
 }
 
-/// Returns the values of one parameter along an axis: a list or a range. If there are no values, reports a mistake and
-/// returns `None`.
+/// Reads the values of one parameter along an axis, from a list or a range. If the values are missing or
+/// wrong, reports the mistakes and returns `None`.
 pub(super) fn values(parameter: &Parameter, entry: &Entry<'_>, problems: &mut Problems) -> Option<Values> {
     match entry.value.get_ref() {
         DeValue::Array(list) if list.is_empty() => {
@@ -80,7 +81,7 @@ pub(super) fn values(parameter: &Parameter, entry: &Entry<'_>, problems: &mut Pr
     }
 }
 
-/// Reports parameters that several axes vary, and axes that would override `[params]`.
+/// Reports parameters that two axes vary, and parameters that are both in `[params]` and on an axis.
 pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], lookup: &mut Lookup<'_>) {
     let mut seen: Vec<(usize, Range<usize>)> = Vec::new();
     for placed in axes {

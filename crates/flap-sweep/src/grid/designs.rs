@@ -1,4 +1,5 @@
-//! Designs at the start of a grid: one, or several that form an axis, such as `device = ["a.toml", "b.toml"]`.
+//! Reads the designs with which a grid file starts. Several designs, as in `device = ["a.toml", "b.toml"]`,
+//! form an axis.
 
 use std::ops::Range;
 use std::path::Path;
@@ -16,37 +17,38 @@ use crate::plan::axes::{Axis, Values};
 use crate::plan::uncertainty::Uncertainty;
 use crate::plan::{Differences, Value};
 
-/// Designs of a grid before they are parts of a vehicle.
+/// The designs with which a grid file starts, without the wings of the section `[vehicle]`.
 pub(super) struct Designs {
-    /// At least one design; all designs have the same model.
+    /// The list contains at least one design, and all designs have the same model.
     pub(super) bases: Vec<Base>,
-    /// Names of the designs, if they form an axis.
+    /// Names of the designs, if the designs form an axis.
     names: Option<Names>,
 }
 
 /// Names of the designs along an axis.
 struct Names {
-    /// Key of the grid file and name of the axis: `device` or `preset`.
+    /// Key in the grid file, which is also the name of the axis: `device` or `preset`.
     key: &'static str,
     key_span: Range<usize>,
     labels: Vec<String>,
 }
 
-/// The start of a grid: the first design, and the differences between this design and the other designs.
+/// The designs of a grid with their wings: the first design, and the values in which the designs differ.
 pub(super) struct Start {
-    /// First design, without values of parameters in which the designs differ.
+    /// The first design. If a parameter has different values in the designs, the first design contains no
+    /// value for this parameter.
     pub(super) base: Base,
     /// Values of each design.
     pub(super) designs: Vec<Vec<Value>>,
     /// Preset of each design.
     pub(super) presets: Vec<&'static Preset>,
     pub(super) differences: Differences,
-    /// Axis of the designs, if the designs form an axis.
+    /// The axis along which the design changes, if the grid has a list of designs.
     pub(super) axis: Option<Placed>,
 }
 
-/// Returns the designs that the keys `preset` or `device` name. If there are mistakes, reports the mistakes and returns
-/// `None`.
+/// Reads the designs that the key `preset` or `device` of a grid file names. If the designs have mistakes,
+/// reports the mistakes and returns `None`.
 pub(super) fn read(root: &[Entry<'_>], reader: Reader<'_>, problems: &mut Problems) -> Option<Designs> {
     let Some((key, entry, list)) = listed(root) else {
         return Some(Designs { bases: vec![reader.base(root, problems)?], names: None });
@@ -84,7 +86,7 @@ pub(super) fn read(root: &[Entry<'_>], reader: Reader<'_>, problems: &mut Proble
 
 type List<'t> = [Spanned<DeValue<'t>>];
 
-/// Returns the list of designs, if the grid starts from a list.
+/// If the key `device` or `preset` has a list as its value, returns the key, its entry and the list.
 fn listed<'e, 't>(root: &'e [Entry<'t>]) -> Option<(&'static str, &'e Entry<'t>, &'e List<'t>)> {
     let mut begins = ["device", "preset"].into_iter().filter_map(|key| Some((key, table::find(root, key)?)));
     let (key, entry) = begins.next()?;
@@ -93,7 +95,8 @@ fn listed<'e, 't>(root: &'e [Entry<'t>]) -> Option<(&'static str, &'e Entry<'t>,
     begins.next().is_none().then_some((key, entry, list))
 }
 
-/// Returns the label of each design in rows: the name of a preset, or of a device's file without folder and ending.
+/// Returns the labels that stand for the designs in rows of results. A label is the name of a preset, or the
+/// file name of a device without folder and ending.
 fn labels(key: &str, list: &List<'_>, problems: &mut Problems) -> Option<Vec<String>> {
     let mut labels: Vec<String> = Vec::new();
     for value in list {
@@ -127,8 +130,8 @@ fn labels(key: &str, list: &List<'_>, problems: &mut Problems) -> Option<Vec<Str
 }
 
 impl Designs {
-    /// Returns the start of the grid, with the wings of `[vehicle]`. If there are mistakes, reports the mistakes and
-    /// returns `None`.
+    /// Adds the wings of the section `[vehicle]` to each design, and compares the designs. If the section has
+    /// mistakes, reports the mistakes and returns `None`.
     pub(super) fn start(
         self,
         root: &[Entry<'_>],

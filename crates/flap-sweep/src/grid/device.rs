@@ -1,4 +1,5 @@
-//! The design at the start of a grid: a preset, or a device with its `[params]`; and the section `[params]`.
+//! Reads the design with which a grid file starts: a preset, or a device with its `[params]`. The module also
+//! reads the section `[params]` of grid files.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -20,24 +21,25 @@ use crate::plan::{Robot, Source, Value, WithUnits};
 /// Keys of a device.
 const DEVICE_KEYS: [&str; 5] = ["description", "preset", "device", "params", "correlation"];
 
-/// The design at the start of a grid.
+/// The design with which a grid file starts.
 pub(super) struct Base {
     pub(super) robot: Robot,
-    /// Preset on which the devices are based.
+    /// The preset of the design, or the preset on which the device of the design is based.
     pub(super) preset: &'static Preset,
     pub(super) values: Vec<Value>,
-    /// Parameters whose values have units.
+    /// Parameters whose values have units in the file.
     pub(super) with_units: WithUnits,
     pub(super) uncertainty: Uncertainty,
-    /// Devices, beginning with the device of the grid.
+    /// The device that the grid file names, then the device on which this device is based, and so on.
     pub(super) devices: Vec<Source>,
 }
 
-/// Reader of devices.
+/// Reads devices from files, or from texts that were recorded with results.
 #[derive(Clone, Copy)]
 pub(super) struct Reader<'r> {
     pub(super) models: &'r [&'static dyn Simulator],
-    /// Devices recorded with results, by name; `None` to read devices from files.
+    /// Names and texts of the devices that were recorded with results. If this field is `None`, devices are
+    /// read from files.
     pub(super) recorded: Option<&'r [Source]>,
 }
 
@@ -48,7 +50,8 @@ impl Reader<'_> {
         self.of_file(root, &mut Vec::new(), problems)
     }
 
-    /// Returns the design of a file. `chain` contains the devices that refer to it.
+    /// Returns the design that a grid file or a device describes. `chain` contains the paths of the devices
+    /// that were read before, each of which names the next device.
     fn of_file(self, root: &[Entry<'_>], chain: &mut Vec<PathBuf>, problems: &mut Problems) -> Option<Base> {
         check_description(root, problems);
         let Some(entry) = table::find(root, "device") else {
@@ -111,7 +114,7 @@ impl Reader<'_> {
         Some(base)
     }
 
-    /// Returns the design in the text of a device.
+    /// Returns the design that the text of a device file describes.
     fn device(self, text: &str, chain: &mut Vec<PathBuf>, problems: &mut Problems) -> Option<Base> {
         let (root, errors) = DeTable::parse_recoverable(text);
         if !errors.is_empty() {
@@ -129,7 +132,7 @@ impl Reader<'_> {
     }
 }
 
-/// Reports a description that is not text.
+/// If the value of the key `description` is not text, reports a mistake.
 pub(super) fn check_description(root: &[Entry<'_>], problems: &mut Problems) {
     if let Some(description) = table::find(root, "description") {
         value::text("description", description.value, problems);
@@ -137,7 +140,7 @@ pub(super) fn check_description(root: &[Entry<'_>], problems: &mut Problems) {
 }
 
 impl Base {
-    /// Applies `[params]` and `[[correlation]]` of a file.
+    /// Applies the sections `[params]` and `[[correlation]]` of a file to the design.
     ///
     /// Returns the parameters in `[params]`, with the positions of the parameters in the file.
     pub(super) fn set(

@@ -19,55 +19,56 @@ pub struct Diagnostic {
     pub source: Arc<Source>,
     /// Description of the mistake in one line.
     pub message: String,
-    /// Position of the bytes with the mistake in the source. The range is empty if the mistake is missing text.
+    /// Range of the bytes in the source file that contain the mistake. If text is missing at this position,
+    /// the range is empty.
     pub span: Range<usize>,
-    /// A few words that are shown at the mistake. The label may be empty.
+    /// A few words that are shown below the wrong part of the file, or an empty text.
     pub label: String,
-    /// Related positions.
+    /// Further positions in the file that help to explain the mistake.
     pub related: Vec<Related>,
-    /// Allowed values or forms.
+    /// Lines of the message that describe the allowed values or forms.
     pub notes: Vec<String>,
-    /// Advice.
+    /// Lines of the message that advise how to correct the mistake.
     pub help: Vec<String>,
     /// True if the mistake is counted but not shown. A mistake that is not shown needs no help text.
     pub(crate) is_only_counted: bool,
 }
 
-/// A second position in the file to which a diagnostic refers.
+/// A further position in the file that helps to explain a mistake.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Related {
-    /// Bytes of the source.
+    /// Range of the bytes in the source file.
     pub span: Range<usize>,
     /// A few words that are shown at this position of the file.
     pub label: String,
 }
 
 impl Diagnostic {
-    /// Sets the words that are shown at the mistake.
+    /// Sets the words that are shown below the wrong part of the file.
     pub(crate) fn label(&mut self, label: impl Into<String>) -> &mut Diagnostic {
         self.label = shortened(&label.into()).into_owned();
         self
     }
 
-    /// Adds a second position to the mistake.
+    /// Adds a further position in the file that helps to explain the mistake.
     pub(crate) fn related(&mut self, span: Range<usize>, label: impl Into<String>) -> &mut Diagnostic {
         self.related.push(Related { span, label: label.into() });
         self
     }
 
-    /// Adds a line about allowed values or forms.
+    /// Adds a line to the message that describes the allowed values or forms.
     pub(crate) fn note(&mut self, note: impl Into<String>) -> &mut Diagnostic {
         self.notes.push(shortened(&note.into()).into_owned());
         self
     }
 
-    /// Adds a line of advice.
+    /// Adds a line of advice to the message.
     pub(crate) fn help(&mut self, help: impl Into<String>) -> &mut Diagnostic {
         self.help.push(shortened(&help.into()).into_owned());
         self
     }
 
-    /// Adds the nearest of `names` if `name` resembles it.
+    /// If `name` resembles one of `names`, adds the most similar name as advice.
     pub(crate) fn did_you_mean<'n>(
         &mut self,
         name: &str,
@@ -81,12 +82,12 @@ impl Diagnostic {
         self
     }
 
-    /// Returns the number of the line in which the span begins; the first line is 1.
+    /// Returns the number of the line in which the mistake begins. The first line has the number 1.
     pub fn line(&self) -> usize {
         position(&self.source.text, self.span.start).0
     }
 
-    /// Returns the column in which the span begins, in characters; the first column is 1.
+    /// Returns the column in which the mistake begins, in characters. The first column has the number 1.
     pub fn column(&self) -> usize {
         position(&self.source.text, self.span.start).1
     }
@@ -110,7 +111,8 @@ pub struct Mistakes {
 }
 
 impl Mistakes {
-    /// Largest number of mistakes that are shown. A file with more mistakes usually repeats one mistake.
+    /// Largest number of mistakes that are shown. If a file has more mistakes, it usually repeats the same
+    /// mistake.
     pub const MOST_SHOWN: usize = 20;
 
     /// Returns the number of mistakes that are not shown.
@@ -124,7 +126,7 @@ impl Mistakes {
     }
 }
 
-/// The shown mistakes.
+/// Dereferences to the list of the shown mistakes.
 impl Deref for Mistakes {
     type Target = [Diagnostic];
 
@@ -133,9 +135,10 @@ impl Deref for Mistakes {
     }
 }
 
-/// Returns the text of the shown `mistakes` with their lines of the grid file, and the number of further mistakes.
+/// Returns a message with the shown `mistakes`, the lines of the grid file around them, and the number of
+/// further mistakes.
 ///
-/// The text has colours if `styled` is true.
+/// If `styled` is true, the message contains codes for the colours of the terminal.
 pub fn render(mistakes: &Mistakes, styled: bool) -> String {
     let renderer = if styled { Renderer::styled() } else { Renderer::plain() };
     let text: String =
@@ -165,11 +168,11 @@ fn group(diagnostic: &Diagnostic) -> Group<'_> {
     Level::ERROR.primary_title(diagnostic.message.as_str()).element(snippet).elements(notes.chain(help))
 }
 
-/// Largest number of stored diagnostics. Further diagnostics are counted, so that a file with millions of mistakes
-/// takes little time and memory.
+/// Largest number of stored diagnostics. Further diagnostics are only counted, so that a file with millions
+/// of mistakes takes little time and memory.
 const MOST_KEPT: usize = 1000;
 
-/// Collector of diagnostics about one file.
+/// Collects the diagnostics about one file.
 pub(super) struct Problems {
     source: Arc<Source>,
     found: Vec<Diagnostic>,
@@ -197,7 +200,7 @@ impl Problems {
         self.found.len() + self.only_counted
     }
 
-    /// Adds the mistakes of another file.
+    /// Adds the mistakes that were found in another file.
     pub(super) fn absorb(&mut self, other: Problems) {
         self.only_counted += other.only_counted;
         for diagnostic in other.found {
@@ -205,13 +208,13 @@ impl Problems {
         }
     }
 
-    /// Adds a diagnostic, and returns it for labels, notes and help.
+    /// Adds a diagnostic and returns a reference to it, so that the caller can add labels, notes and help.
     pub(super) fn report(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
         let source = Arc::clone(&self.source);
         self.report_in(&source, span, message)
     }
 
-    /// Adds a diagnostic about another file, and returns it.
+    /// Adds a diagnostic about the file `source`, and returns a reference to the diagnostic.
     pub(super) fn report_in(
         &mut self,
         source: &Arc<Source>,
@@ -250,7 +253,9 @@ impl Problems {
         Path::new(&self.source.name).parent().unwrap_or(Path::new("")).join(path)
     }
 
-    /// Returns all diagnostics: first about the file, in the order of the file, then about other files.
+    /// Sorts the diagnostics: first the diagnostics about this file, in the order of the file, then the
+    /// diagnostics about other files. Keeps the first [`Mistakes::MOST_SHOWN`] diagnostics, and counts the
+    /// further ones.
     pub(super) fn into_mistakes(mut self) -> Mistakes {
         let source = Arc::clone(&self.source);
         self.found
@@ -280,9 +285,9 @@ pub(super) fn report_syntax(errors: &[toml::de::Error], problems: &mut Problems)
     }
 }
 
-/// Returns a clearer form of the parser's message about `text`, and advice.
+/// Returns a clearer form of a message of the TOML parser about `text`, and advice if there is any.
 ///
-/// Messages without a clearer form are returned unchanged.
+/// If a message has no clearer form, the function adds the words "not valid TOML" before the message.
 fn explain(message: &str, text: &str) -> (String, Option<String>) {
     let begins = |text: &str| message.starts_with(text);
     if message == "duplicate key" {

@@ -1,4 +1,5 @@
-//! Expressions in a grid file, and the names in expressions: the sections `[derived]`, `[where]` and `[measure]`.
+//! Reads the expressions in the sections `[derived]`, `[where]` and `[measure]` of a grid file, and looks up
+//! the names in the expressions.
 
 use std::ops::Range;
 
@@ -16,36 +17,38 @@ use crate::plan::Value;
 use crate::plan::formula::{Condition, Derived, OwnMeasure};
 use crate::table::layout::is_fixed;
 
-/// Prefix before the name of a parameter, for the value of this parameter in the preset.
+/// Prefix for the value of a parameter in the preset, as in `preset.drive_frequency`.
 const PRESET: &str = "preset.";
 
-/// Prefix before the name of a parameter, for the value of this parameter in the device.
+/// Prefix for the value of a parameter in the device, as in `device.drive_frequency`.
 const DEVICE: &str = "device.";
 
-/// Description of a drive frequency that is the resonance of each design.
+/// Text of messages about a drive frequency that is the resonance of each design.
 const RESONANCE: &str = "the resonance of each design, which [measure] has as resonance_hz";
 
-/// Names of parameters, of the parameters' values in the preset, and of measures. Values have this order: parameters,
-/// the model's measures, the user's measures.
+/// The names that expressions may contain: parameters, values of parameters in the preset or the device, and
+/// measures. The numbers that an expression reads have this order: parameters, the model's measures, the
+/// user's measures.
 pub(super) struct Names<'n> {
     pub(super) parameters: &'n [Parameter<'n>],
-    /// Values of the preset of each design.
+    /// For each design, the values of the parameters in its preset.
     pub(super) preset: Vec<Vec<Value>>,
-    /// Values of the device of each design, if the grid starts from devices.
+    /// For each design, the values of the parameters in its device, if the grid starts from devices.
     pub(super) device: Option<Vec<Vec<Value>>>,
-    /// For each parameter without its own value, a description of the parameters from which its value comes.
+    /// For each parameter that is not set, a description of the parameters that determine its value.
     pub(super) unset: Vec<Option<&'static str>>,
-    /// Parameters that the search for hover changes. Their values are unknown before a point is run.
+    /// Parameters that the search for hover changes. The values of these parameters are unknown before a
+    /// point is run.
     pub(super) inputs: Vec<usize>,
     /// Measures of the model, without the user's measures.
     pub(super) columns: Vec<Column>,
-    /// True if the model's measures are allowed. Measures are unknown before a point is run.
+    /// True if expressions may contain measures. The values of measures are unknown before a point is run.
     pub(super) are_measured: bool,
-    /// User's measures that are allowed.
+    /// Measures of the user that expressions may contain.
     pub(super) own: Vec<OwnMeasure>,
 }
 
-/// Returns the description of the parameters from which a parameter is computed, if the parameter is not set.
+/// If a parameter is not set, returns a description of the parameters that determine its value.
 pub(super) fn followed(value: Value) -> Option<&'static str> {
     match value {
         Value::Given(_) | Value::OfDesign => None,
@@ -59,8 +62,8 @@ impl Names<'_> {
         Parameter::index(self.parameters, name)
     }
 
-    /// Returns the index of the parameter that gives the value of this parameter. An unset parameter of one wing has
-    /// the value of all wings.
+    /// Returns the index of the parameter that stores the value of parameter number `index`. A parameter of
+    /// one wing that is not set has the value of the parameter of all wings.
     pub(super) fn standing(&self, index: usize) -> usize {
         let shared = of_all_wings(self.parameters, index).filter(|_| self.unset[index].is_some());
         shared.unwrap_or(index)
@@ -79,7 +82,8 @@ impl Names<'_> {
         }
     }
 
-    /// Returns the meaning of a parameter's value in fixed designs: the presets or the devices.
+    /// Returns the meaning of a name such as `preset.hinge_stiffness`: one number, or one number for each
+    /// design. `designs` contains the parameter values of the presets or of the devices.
     fn of_fixed(&self, designs: &[Vec<Value>], index: usize) -> Option<Meaning<'_>> {
         if let ParameterKind::Choice(_) = self.parameters[index].kind {
             return None;
@@ -101,7 +105,8 @@ impl Names<'_> {
         Some(if are_equal { Meaning::Constant(first) } else { Meaning::OfChoice(design, numbers.into()) })
     }
 
-    /// Returns the designs without a value, such as "the device `long`", or an empty text if no design has a value.
+    /// Returns text that names the designs without a value, for example "the device `long`". If no design has
+    /// a value, the text is empty.
     fn unset_designs(&self, is_unset: &[bool]) -> String {
         // The last parameter names the design.
         let Some(Parameter { name, kind: ParameterKind::Choice(labels), .. }) = self.parameters.last() else {
@@ -160,10 +165,10 @@ impl Scope for Names<'_> {
     }
 }
 
-/// Returns the expression of `entry`. The expression must be of the kind `wanted`, and its value must be known before
-/// points are run.
+/// Parses the expression in `entry`. `wanted` states if the expression must be a number or a condition. The
+/// expression may contain only values that are known before points are run.
 ///
-/// If there are mistakes, reports the mistakes and returns `None`.
+/// If the expression has mistakes, reports the mistakes and returns `None`.
 pub(super) fn read(
     entry: &Entry<'_>,
     names: &Names<'_>,
@@ -202,10 +207,11 @@ pub(super) fn read(
     None
 }
 
-/// Returns the expression of `entry`. If the entry is not text, reports a mistake and returns `None`.
+/// Parses the expression in `entry`. If the value of the entry is not text, reports a mistake and returns
+/// `None`.
 ///
 /// # Errors
-/// The mistakes in the expression. The returned mistakes are not yet reported.
+/// Returns the mistakes in the expression, without reporting them.
 pub(super) fn check(
     entry: &Entry<'_>,
     names: &Names<'_>,
@@ -221,7 +227,7 @@ pub(super) fn check(
     Ok(None)
 }
 
-/// Reports a mistake in the expression of `entry`, at its position in the file.
+/// Reports a mistake in the expression of `entry`, at the position of the mistake in the file.
 pub(super) fn report<'p>(
     entry: &Entry<'_>,
     error: &ExpressionError,
@@ -236,10 +242,10 @@ pub(super) fn report<'p>(
     diagnostic
 }
 
-/// A parameter that is set, and the position of its entry in the file.
+/// Index of a parameter that the file sets, and the position of the parameter's key in the file.
 pub(super) type Place = (usize, Range<usize>);
 
-/// Returns the parameters in the section, each with its entry.
+/// Returns the indices of the parameters in the section `[derived]`, each with its entry in the file.
 pub(super) fn derived_drafts<'t>(
     entry: Option<&Entry<'t>>,
     lookup: &mut Lookup<'_>,
@@ -260,8 +266,8 @@ pub(super) fn derived_drafts<'t>(
     drafts
 }
 
-/// Reports derived parameters that are also varied or set. Each list in `set` has a name for the way in which the
-/// parameters of the list are set.
+/// Reports derived parameters that are also varied or set. `set` contains lists of parameters, each with
+/// words for the message, such as "set under [params]".
 pub(super) fn report_derived_twice(
     drafts: &[(usize, Entry<'_>)],
     axes: &[Placed],
@@ -283,7 +289,7 @@ pub(super) fn report_derived_twice(
     }
 }
 
-/// Returns the expressions of the section, in an order in which the expressions can be computed.
+/// Reads the formulas of the section `[derived]`, and finds an order in which the formulas can be computed.
 pub(super) fn read_derived(
     drafts: &[(usize, Entry<'_>)],
     names: &Names<'_>,
@@ -306,7 +312,7 @@ pub(super) fn read_derived(
     Derived::new(formulas, order)
 }
 
-/// Returns the positions of the formulas that `expression` depends on.
+/// Returns the indices of the formulas on which `expression` depends.
 fn dependencies(expression: &Expression, formulas: &[(usize, Expression)]) -> Vec<usize> {
     expression
         .reads()
@@ -314,8 +320,9 @@ fn dependencies(expression: &Expression, formulas: &[(usize, Expression)]) -> Ve
         .collect()
 }
 
-/// Returns the formulas in an order in which each formula is after its dependencies. The result leaves out formulas in
-/// cycles, and formulas that depend on cycles.
+/// Returns the indices of the formulas, in an order in which each formula comes after all formulas on which
+/// it depends. The result leaves out formulas that depend on themselves, and formulas that depend on such
+/// formulas.
 fn order(dependencies: &[Vec<usize>]) -> Vec<usize> {
     let mut order: Vec<usize> = Vec::new();
     let mut waiting: Vec<usize> = (0..dependencies.len()).collect();
@@ -330,8 +337,8 @@ fn order(dependencies: &[Vec<usize>]) -> Vec<usize> {
     }
 }
 
-/// Reports formulas that depend on themselves. Each cycle is reported once. `order` contains the formulas that neither
-/// are in cycles nor depend on cycles.
+/// Reports each cycle of formulas that depend on themselves once. `order` contains the formulas that depend
+/// on no cycle.
 fn report_cycles(
     dependencies: &[Vec<usize>],
     order: &[usize],
@@ -364,7 +371,7 @@ fn report_cycles(
     }
 }
 
-/// Returns the conditions of the section, in the order of the file.
+/// Reads the conditions of the section `[where]`, in the order of the file.
 pub(super) fn read_conditions(
     entry: Option<&Entry<'_>>,
     names: &Names<'_>,
@@ -379,7 +386,8 @@ pub(super) fn read_conditions(
     conditions
 }
 
-/// Adds the measures of the section to `names`, one by one. A measure may use the measures above it in the file.
+/// Adds the measures of the section `[measure]` to `names`, one by one. The expression of a measure may
+/// contain measures that are above this measure in the file.
 ///
 /// Returns the names of all measures, including measures with wrong expressions.
 pub(super) fn read_measures(
@@ -419,7 +427,7 @@ pub(super) fn read_measures(
     valid.map(|entry| entry.key.to_owned()).collect()
 }
 
-/// Returns true if `name` is allowed for a column and in expressions.
+/// Returns true if `name` is a valid name for a measure of the user.
 fn is_valid_name(name: &str, names: &Names<'_>) -> bool {
     expression::is_free_name(name)
         && !is_fixed(name)

@@ -1,4 +1,5 @@
-//! Section `[gradient]`: columns with the derivatives of measures with respect to parameters.
+//! Reads the section `[gradient]`, which requests derivatives of measures with respect to parameters as
+//! columns.
 
 use std::ops::Range;
 
@@ -17,8 +18,8 @@ use crate::vehicle::BodyRows;
 
 pub(super) const KEYS: [&str; 2] = ["of", "with_respect_to"];
 
-/// Returns the derivatives that the section `[gradient]` requests. `names` contains the measures of rows, and `derived`
-/// the derived parameters.
+/// Returns the derivatives that the section `[gradient]` requests. `names` contains the measures of rows, and
+/// `derived` contains the derived parameters.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     robot: &Robot,
@@ -55,7 +56,8 @@ pub(super) fn read(
     Some(Gradient { of, with_respect_to: by.collect(), per: Per::Cent })
 }
 
-/// Returns the index of a measure: the model's columns come first, then the user's measures.
+/// Returns the index of the measure `name` in the list of the model's measures, followed by the user's
+/// measures.
 fn measure(name: &str, span: Range<usize>, names: &Names<'_>, problems: &mut Problems) -> Option<usize> {
     let columns = names.columns.iter().map(|column| column.name.as_str());
     let own = names.own.iter().map(|own| own.name.as_str());
@@ -72,7 +74,8 @@ fn measure(name: &str, span: Range<usize>, names: &Names<'_>, problems: &mut Pro
     Some(index)
 }
 
-/// Returns the index of a parameter that can have relative changes.
+/// Returns the index of the parameter `name`. If derivatives with respect to this parameter are impossible,
+/// reports a mistake and returns `None`.
 fn parameter(
     name: &str,
     span: Range<usize>,

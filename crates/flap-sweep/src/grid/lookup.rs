@@ -1,4 +1,4 @@
-//! Look-up of parameters by name, and the reasons why a vehicle lacks a parameter.
+//! Finds parameters by name, and explains why a vehicle has no parameter with a given name.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use super::diagnostic::{Diagnostic, Problems};
 use super::table::Entry;
 use crate::plan::Robot;
 
-/// Robot in which parameters are looked up, and the list of mistakes for unknown parameters.
+/// A robot whose parameters are looked up by name, and the list to which unknown names are added as mistakes.
 pub(super) struct Lookup<'l> {
     pub(super) robot: &'l Robot,
     pub(super) models: &'l [&'static dyn Simulator],
@@ -18,7 +18,8 @@ pub(super) struct Lookup<'l> {
 }
 
 impl<'l> Lookup<'l> {
-    /// Returns the parameter called `name` and the index of this parameter. An unknown name is reported at `span`.
+    /// Returns the parameter called `name` and the index of this parameter. If the name is unknown, reports a
+    /// mistake at the position `span`.
     pub(super) fn named(&mut self, name: &str, span: Range<usize>) -> Option<(usize, &'l Parameter<'l>)> {
         let known = self.robot.parameters();
         let found = Parameter::index(known, name).map(|index| (index, &known[index]));
@@ -28,7 +29,7 @@ impl<'l> Lookup<'l> {
         found
     }
 
-    /// Returns the parameter of `entry` and the index of this parameter.
+    /// Returns the parameter that the key of `entry` names, and the index of this parameter.
     pub(super) fn parameter(&mut self, entry: &Entry<'_>) -> Option<(usize, &'l Parameter<'l>)> {
         self.named(entry.key, entry.key_span.clone())
     }
@@ -68,11 +69,11 @@ impl<'l> Lookup<'l> {
     }
 }
 
-/// Returns the reason why a vehicle with these parameters has no parameter called `name`, if `name` indicates the
-/// reason.
+/// Explains why a vehicle has no parameter called `name`. `parameters` are the parameters of the vehicle.
 ///
-/// The name may be a choice or the frequency of one wing, a difference without wings on both sides, or a phase. `None`
-/// if the parameters do not belong to a vehicle.
+/// There are explanations for a choice or the frequency of one wing, a left-right difference without wings on
+/// both sides, and a phase. For any other name, and if the parameters are not the parameters of a vehicle,
+/// returns `None`.
 pub fn why_absent(parameters: &[Parameter], name: &str) -> Option<String> {
     if !parameters.iter().any(|known| known.name == "about_x") {
         return None;
@@ -100,7 +101,8 @@ fn is_wing(parameters: &[Parameter], name: &str) -> bool {
     parameters.iter().any(|known| known.name.strip_suffix("_position_x") == Some(name))
 }
 
-/// Returns true if the name is the phase of a drive: of all wings, of one wing, or of a difference.
+/// Returns true if `name` is a name for the phase of the drive, of all wings, of one wing, or as a left-right
+/// difference.
 fn is_phase(parameters: &[Parameter], name: &str) -> bool {
     let Some(first) = name.strip_suffix("phase_difference").or(name.strip_suffix("phase")) else {
         return false;

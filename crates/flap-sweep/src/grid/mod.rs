@@ -1,7 +1,8 @@
-//! Grid files: from text to a [`Plan`](crate::plan::Plan), or to a list of all mistakes in the text.
+//! Converts the text of a grid file to a [`Plan`](crate::plan::Plan). If the text has mistakes, returns a
+//! list of all mistakes.
 //!
-//! Each part of the file has its own module. All modules report mistakes into one list, so one check finds all mistakes
-//! of a file. See `docs/reference/grid.md` for the format of grid files.
+//! Each section of a grid file is read by a separate module. All modules add mistakes to the same list, so
+//! that one check finds all mistakes of a file. See `docs/reference/grid.md` for the format of grid files.
 
 mod axes;
 mod designs;

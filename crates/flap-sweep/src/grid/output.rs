@@ -1,4 +1,4 @@
-//! Section `[output]`: the file for rows, and the columns of this file.
+//! Reads the section `[output]` of a grid file: the path of the results file, and the columns of this file.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -14,10 +14,10 @@ use crate::table::layout::{POINT, RUN, STATUS};
 
 pub(super) const KEYS: [&str; 2] = ["path", "columns"];
 
-/// A robot, and the names of the measured columns, including the user's measures.
+/// A robot, and the names of its measures, including the user's measures.
 type Measured<'m> = (&'m Robot, &'m [String]);
 
-/// Reads the section. Column names are checked only if the model is known.
+/// Reads the section `[output]`. Column names are checked only if the model is known.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     model: Option<Measured<'_>>,
@@ -33,7 +33,7 @@ pub(super) fn read(
     Output { path, columns: columns.map(|(entry, model)| columns_of(model, entry, problems)) }
 }
 
-/// Returns the file for rows, or `-` for stdout.
+/// Returns the path of the results file, or `-` for stdout.
 fn path_of(entry: &Entry<'_>, problems: &mut Problems) -> Option<PathBuf> {
     let path = PathBuf::from(value::text("path", entry.value, problems)?);
     if path.as_os_str() != "-"
@@ -44,7 +44,7 @@ fn path_of(entry: &Entry<'_>, problems: &mut Problems) -> Option<PathBuf> {
     Some(path)
 }
 
-/// Returns the indices of the columns in the list of `entry`.
+/// Returns the indices of the columns that the list in `entry` names.
 fn columns_of(model: Measured<'_>, entry: &Entry<'_>, problems: &mut Problems) -> Vec<usize> {
     let help = "remove `columns` to write all columns of the model";
     let mut chosen = Vec::new();
@@ -57,7 +57,8 @@ fn columns_of(model: Measured<'_>, entry: &Entry<'_>, problems: &mut Problems) -
     chosen
 }
 
-/// Returns the names of the columns that can be chosen: measures, then columns about the run.
+/// Returns the names of the columns that can be chosen: measures, then columns about the run, such as
+/// `cycles`.
 fn names(measures: &[String]) -> impl Iterator<Item = &str> {
     measures.iter().map(String::as_str).chain(RUN.iter().map(|column| column.name))
 }

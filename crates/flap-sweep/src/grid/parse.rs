@@ -1,4 +1,4 @@
-//! Reading of whole grid files, from a path or from text.
+//! Reads whole grid files from a path, a stream or a text.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -24,7 +24,7 @@ use crate::plan::{Differences, Plan, PointsFile, Robot, Source, Space, Value};
 use crate::resonance::AtResonance;
 use crate::vehicle::BodyRows;
 
-/// Reads the grid file at `path` and returns its plan, with the presets of `models`.
+/// Reads the grid file at `path` and returns its plan. The grid file can start from the presets of `models`.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read or has mistakes.
@@ -33,9 +33,11 @@ pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, Read
     read_from(file, path, models)
 }
 
-/// Reads a grid from a stream, such as stdin, and returns its plan, with the presets of `models`.
+/// Reads a grid file from a stream, such as stdin, and returns its plan. The grid file can start from the
+/// presets of `models`.
 ///
-/// `name` represents the stream in messages and in sidecars. Paths in the grid are relative to the folder of `name`.
+/// `name` is the file name that messages and sidecars contain for the stream. Paths in the grid file are
+/// relative to the folder of `name`.
 ///
 /// # Errors
 /// Returns an error if the stream cannot be read or the grid has mistakes.
@@ -53,18 +55,21 @@ pub fn read_from(
     parse(&name.display().to_string(), &text, models).map_err(ReadError::Grid)
 }
 
-/// Checks the grid file `text` and returns its plan. Presets are looked up in `models`; `name` appears in messages.
+/// Checks the text of a grid file and returns its plan. The grid file can start from the presets of `models`.
+/// `name` is the file name in messages.
 ///
 /// # Errors
-/// The mistakes, in the order of the file. For a file that is not TOML, only syntax errors are reported.
+/// Returns the mistakes in the order of the file. If the file is not valid TOML, only syntax errors are
+/// reported.
 pub fn parse(name: &str, text: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
     plan(name, text, Reader { models, recorded: None })
 }
 
-/// Returns the plan of a grid that was recorded with results, with the recorded devices in place of files.
+/// Returns the plan of a grid file that was recorded with results. The devices of the grid are read from the
+/// recorded texts in `devices`, not from files.
 ///
 /// # Errors
-/// The mistakes, in the order of the file.
+/// Returns the mistakes in the order of the file.
 pub fn parse_recorded(
     name: &str,
     text: &str,
@@ -74,7 +79,7 @@ pub fn parse_recorded(
     plan(name, text, Reader { models, recorded: Some(devices) })
 }
 
-/// Reason for a missing plan.
+/// Reason why flap cannot make a plan from a grid file.
 #[derive(Debug, thiserror::Error)]
 pub enum ReadError {
     /// The file cannot be read as text.
@@ -89,7 +94,7 @@ pub enum ReadError {
     /// The file contains results.
     #[error("{} contains results and is not a grid file", .0.display())]
     Results(PathBuf),
-    /// The text is not a valid grid. The error contains the mistakes, in the order of the file.
+    /// The text is not a valid grid file. The error contains the mistakes in the order of the file.
     #[error("{}", one_per_line(.0))]
     Grid(Mistakes),
 }
@@ -190,7 +195,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     }))
 }
 
-/// Sections of a grid file that describe the points.
+/// Contents of the sections of a grid file that describe the points.
 struct Points<'n> {
     base: Base,
     differences: Differences,
@@ -200,7 +205,8 @@ struct Points<'n> {
     body: Option<BodyRows>,
     derived: Derived,
     conditions: Vec<Condition>,
-    /// Parameters of all wings that the grid sets without effect, because each wing has its own value.
+    /// Parameters of all wings that the grid file sets without effect, because each wing has its own value of
+    /// the parameter.
     unreached: Vec<&'static Parameter<'static>>,
     names: Names<'n>,
 }
@@ -289,10 +295,11 @@ fn read_points<'n>(
     Points { base, differences, axes, sample_file, resonance, body, derived, conditions, unreached, names }
 }
 
-/// Returns the values of parameters that are not sampled. These values are the default means of normal distributions.
+/// Returns the value that each parameter has without the sample. This value is the default mean of a normal
+/// distribution.
 ///
-/// An unset parameter of one wing has the value of all wings, unless this value is in `moved`: varied, sampled or
-/// derived.
+/// A parameter of one wing that is not set has the value of the parameter of all wings. The exceptions are
+/// parameters of all wings in `moved`, which are varied, sampled or derived.
 fn default_means(base: &Base, parameters: &[Parameter<'_>], moved: &[usize]) -> Vec<Value> {
     let mean = |index: usize| {
         let own = base.values[index];
@@ -314,7 +321,8 @@ fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>
     }
 }
 
-/// Returns true if a file with these first bytes is compressed, is a Parquet file, or has the header of results.
+/// Returns true if `bytes` begin like a results file: with compressed data, with a Parquet file, or with the
+/// header line of a CSV table.
 fn looks_like_results(bytes: &[u8]) -> bool {
     const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];
     let header = bytes.split(|byte| *byte == b'\n').next().unwrap_or_default();
@@ -323,7 +331,8 @@ fn looks_like_results(bytes: &[u8]) -> bool {
     is_table || bytes.starts_with(&ZSTD) || bytes.starts_with(b"PAR1")
 }
 
-/// Returns the reason with the path, line and column, in a form that terminals show as a link.
+/// Returns the message of `error` after the path of the file. If the message names a position, the line and
+/// column stand after the path, so that terminals show a link.
 fn located(path: &Path, error: &InputError) -> String {
     let path = path.display();
     match error {

@@ -1,4 +1,5 @@
-//! Ranges of values: `{ from = 60, to = 200, n = 15 }` or with `step`, linear or logarithmic.
+//! Reads ranges of values, such as `{ from = 60, to = 200, n = 15 }`. A range can have `step` in place of
+//! `n`, and can be linear or logarithmic.
 
 use flap_core::parameter::Parameter;
 use toml::de::DeValue;
@@ -11,10 +12,11 @@ use crate::plan::axes::{Axes, Values};
 pub(super) const KEYS: [&str; 5] = ["from", "to", "n", "step", "scale"];
 pub(super) const SCALES: [&str; 2] = ["linear", "log"];
 
-/// Tolerance for steps that should end at `to`, as a fraction of a step: 0.1 is not exact in binary.
+/// If a step ends at `to` within this fraction of a step, `to` is the last value of the range. The tolerance
+/// is necessary because numbers such as 0.1 are not exact in binary.
 const HIT: f64 = 1e-9;
 
-/// Both ends of a range, with the entries of the ends for messages.
+/// The first and the last value of a range, with their entries in the file for messages.
 struct Ends<'e, 't> {
     from: f64,
     to: f64,
@@ -22,15 +24,15 @@ struct Ends<'e, 't> {
     to_entry: &'e Entry<'t>,
 }
 
-/// Spacing of the values between the ends, with the entry of the spacing for messages.
+/// The number of values or the step of a range, with its entry in the file for messages.
 enum Spacing<'e, 't> {
-    /// Number of values.
+    /// Number of values in the range.
     Count(&'e Entry<'t>, u64),
-    /// Distance between values.
+    /// Distance between neighbouring values.
     Step(&'e Entry<'t>, f64),
 }
 
-/// Returns the values of a range. If there are mistakes, reports the mistakes and returns `None`.
+/// Returns the values of a range. If the range has mistakes, reports the mistakes and returns `None`.
 pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Problems) -> Option<Values> {
     let DeValue::Table(table) = axis.value.get_ref() else {
         return None;
@@ -72,7 +74,7 @@ pub(super) fn read(parameter: &Parameter, axis: &Entry<'_>, problems: &mut Probl
     }
 }
 
-/// Returns `from` or `to`, with the entry in the file.
+/// Returns the value of the key `from` or `to` of a range, with its entry in the file.
 fn end<'e, 't>(
     parameter: &Parameter,
     key: &str,
@@ -84,7 +86,7 @@ fn end<'e, 't>(
     Some((value, entry))
 }
 
-/// Returns `n` or `step`, with the entry in the file.
+/// Returns the value of the key `n` or `step` of a range, with its entry in the file.
 fn spacing<'e, 't>(
     parameter: &Parameter,
     entries: &'e [Entry<'t>],
@@ -108,7 +110,8 @@ fn spacing<'e, 't>(
     Some(Spacing::Step(entry, size))
 }
 
-/// Returns the missing keys as text for a message; empty if no key is missing.
+/// Returns text for a message that lists the missing keys of a range. If no key is missing, the text is
+/// empty.
 fn missing_keys(entries: &[Entry<'_>]) -> String {
     let has = |key: &str| table::find(entries, key).is_some();
     let keys = [
@@ -120,7 +123,7 @@ fn missing_keys(entries: &[Entry<'_>]) -> String {
     missing.join(", ")
 }
 
-/// Returns `count` values, which include both ends of the range.
+/// Returns a range of `count` values, including both ends of the range.
 fn counted(
     ends: &Ends<'_, '_>,
     n: &Entry<'_>,
@@ -160,7 +163,8 @@ fn counted(
     Some(Values::Linear { from, to, count })
 }
 
-/// Reports ends that a logarithmic range cannot have. Returns true if there is no mistake.
+/// If the ends of a logarithmic range are zero, have different signs or are too far apart, reports a mistake.
+/// Returns true if there is no mistake.
 fn check_log_ends(ends: &Ends<'_, '_>, problems: &mut Problems) -> bool {
     for (value, entry) in [(ends.from, ends.from_entry), (ends.to, ends.to_entry)] {
         if value == 0.0 {
@@ -197,7 +201,7 @@ fn report_too_wide(ends: &Ends<'_, '_>, problems: &mut Problems) {
         .related(ends.from_entry.value.span(), "from here");
 }
 
-/// Returns values of the range at distances of `step`.
+/// Returns the values of a range whose neighbouring values have the distance `step`.
 fn stepped(ends: &Ends<'_, '_>, entry: &Entry<'_>, step: f64, problems: &mut Problems) -> Option<Values> {
     let Ends { from, to, .. } = *ends;
     if step == 0.0 {

@@ -1,4 +1,5 @@
-//! Section `[refine]`: adaptive refinement of the grid of the axes.
+//! Reads the section `[refine]` of a grid file, which requests additional points between the values of the
+//! axes.
 
 use std::ops::Range;
 
@@ -20,14 +21,15 @@ use crate::table::labels::split_unit;
 
 pub(super) const KEYS: [&str; 5] = ["measure", "error", "max_points", "along", "halvings"];
 
-/// Rows that a refinement uses: names of the model's measures, the user's measures, and the selected columns.
+/// Contents of the rows that a refinement reads: the names of all measures, the user's measures, and the
+/// columns that `[output]` selects.
 pub(super) struct Rows<'r> {
     pub(super) columns: &'r [String],
     pub(super) own: &'r [OwnMeasure],
     pub(super) output: &'r Output,
 }
 
-/// Returns the refinement of the grid of the given axes.
+/// Returns the refinement that the section `[refine]` requests for the given axes.
 pub(super) fn read(
     section: &Entry<'_>,
     axes: &[Placed],
@@ -71,7 +73,8 @@ pub(super) fn read(
     Some(Refine { measures, along: along?, max_points: max_points?, halvings: halvings? })
 }
 
-/// Returns the indices of the refined axes: the axes of the listed parameters, or all axes that can be refined.
+/// Returns the indices of the axes along which points are added: the axes of the listed parameters, or all
+/// axes that allow additional values.
 fn along(
     section: &Entry<'_>,
     listed: Option<&Entry<'_>>,
@@ -104,7 +107,7 @@ fn along(
     Some(along)
 }
 
-/// Returns the axes of the parameters in the list `along`.
+/// Returns the indices of the axes that vary the parameters in the list `along`.
 fn listed_axes(entry: &Entry<'_>, axes: &[Placed], lookup: &mut Lookup<'_>) -> Vec<usize> {
     let help = "remove `along` to add points along all axes of numbers";
     let mut along = Vec::new();
@@ -126,7 +129,7 @@ fn listed_axes(entry: &Entry<'_>, axes: &[Placed], lookup: &mut Lookup<'_>) -> V
     along
 }
 
-/// Returns the largest number of points, which must be more than the axes have.
+/// Returns the value of `max_points`, which must be larger than the number of points of the axes.
 fn max_points(entry: &Entry<'_>, axes: &[Placed], problems: &mut Problems) -> Option<u64> {
     let most = value::count("max_points", Refine::MOST_POINTS, entry.value, problems)?;
     let points = axes.iter().try_fold(1_u64, |points, placed| points.checked_mul(placed.axis.len()))?;
@@ -140,7 +143,7 @@ fn max_points(entry: &Entry<'_>, axes: &[Placed], problems: &mut Problems) -> Op
     None
 }
 
-/// Returns the names of the measures.
+/// Returns the names of the measures that the key `measure` lists.
 fn measures(entry: &Entry<'_>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) -> Vec<String> {
     let names = if entry.value.get_ref().is_str() {
         let name = value::text(entry.key, entry.value, lookup.problems);
@@ -155,7 +158,7 @@ fn measures(entry: &Entry<'_>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) -> Vec<
     names.into_iter().map(|(name, _)| name.to_owned()).collect()
 }
 
-/// Checks that rows contain a measure, and that the measure is a number.
+/// If rows do not contain the measure `name`, or the measure is not a number, reports a mistake.
 fn check_measure(name: &str, span: &Range<usize>, rows: &Rows<'_>, lookup: &mut Lookup<'_>) {
     let problems = &mut *lookup.problems;
     let Some(index) = rows.columns.iter().position(|known| known == name) else {
@@ -185,7 +188,8 @@ fn check_measure(name: &str, span: &Range<usize>, rows: &Rows<'_>, lookup: &mut 
     }
 }
 
-/// Returns the largest errors: one error for all measures, or a list with one error for each measure.
+/// Returns the largest allowed interpolation error of each measure. The file contains one error for all
+/// measures, or a list with one error for each measure.
 fn errors_of(entry: &Entry<'_>, measures: &[String], problems: &mut Problems) -> Vec<Option<Error>> {
     let DeValue::Array(list) = entry.value.get_ref() else {
         return measures.iter().map(|measure| error(measure, entry.value, problems)).collect();
@@ -202,7 +206,8 @@ fn errors_of(entry: &Entry<'_>, measures: &[String], problems: &mut Problems) ->
     measures.iter().zip(list).map(|(measure, item)| error(measure, item, problems)).collect()
 }
 
-/// Returns the largest error of a measure: a percentage, such as `"1 %"`, or a number in the unit of the column.
+/// Returns the largest allowed interpolation error of a measure: a percentage, such as `"1 %"`, or a number
+/// in the unit of the measure.
 fn error(measure: &str, item: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Option<Error> {
     let is_share = item.get_ref().as_str().is_some_and(|text| text.trim_end().ends_with('%'));
     if item.get_ref().as_str().is_some() && !is_share {

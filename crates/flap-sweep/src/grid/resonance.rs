@@ -1,4 +1,5 @@
-//! `drive_frequency = "resonance"` and the section `[resonance]`: each design at its own resonance.
+//! Reads `drive_frequency = "resonance"` and the section `[resonance]`, which set the drive frequency to the
+//! resonance of each design.
 
 use flap_core::simulate::Simulator;
 use toml::Spanned;
@@ -12,7 +13,7 @@ use crate::resonance::{AtResonance, DRIVE_FREQUENCY, Objective, Range};
 
 pub(super) const KEYS: [&str; 4] = ["of", "from", "to", "tolerance"];
 
-/// Word that sets the drive frequency to the resonance of each design.
+/// Value of the key `drive_frequency` that stands for the resonance of each design.
 pub(super) const WORD: &str = "resonance";
 
 /// Returns true if `entry` sets the drive frequency to the resonance.
@@ -20,8 +21,8 @@ pub(super) fn sets_resonance(entry: &Entry<'_>) -> bool {
     entry.key == DRIVE_FREQUENCY && entry.value.get_ref().as_str() == Some(WORD)
 }
 
-/// Returns the search for resonances, if `[params]` requests it. With such a search, the drive frequency of `base` is
-/// [`Value::Resonance`].
+/// If the section `[params]` requests rows at the resonance of each design, returns the source of these rows.
+/// In this case, the function sets the drive frequency in `base` to [`Value::Resonance`].
 pub(super) fn read(
     root: &[Entry<'_>],
     simulator: &'static dyn Simulator,
@@ -88,7 +89,7 @@ fn range(section: &Entry<'_>, problems: &mut Problems) -> Range {
     range
 }
 
-/// Returns a frequency, which must be more than zero (Hz).
+/// Returns a frequency in Hz, which must be more than zero.
 fn frequency(key: &str, value: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Option<f64> {
     let number = value::quantity(key, "Hz", value, problems)?;
     if number > 0.0 && number.is_finite() {

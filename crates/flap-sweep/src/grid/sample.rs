@@ -1,5 +1,5 @@
-//! Section `[sample]`: points that are spread over the design space, or listed in a file. The points of a sample form
-//! one axis.
+//! Reads the section `[sample]`: points that are spread over the design space, or listed in a file. The
+//! points of a sample form one axis.
 
 pub(super) mod distribution;
 mod file;
@@ -22,13 +22,15 @@ use crate::plan::{PointsFile, Value};
 pub(super) const KEYS: [&str; 5] = ["method", "n", "seed", "of", "parameters"];
 pub(super) const FILE_KEYS: [&str; 2] = ["method", "path"];
 pub(super) const METHODS: [&str; 4] = ["sobol", "latin-hypercube", "random", "file"];
-/// Allowed values of the key `of`, for samples without a list of parameters.
+/// Allowed values of the key `of`, which replaces the list of the sampled parameters.
 pub(super) const OF: [&str; 1] = ["device"];
 
-/// Returns the sample of the section, and the file that lists the points, if there is such a file.
+/// Returns the sample that the section `[sample]` describes, and the file of its points if the section names
+/// a file.
 ///
-/// `base` contains the standard errors of parameters, and `means` contains the values of parameters that are not
-/// sampled. A parameter with a wrong distribution is still used in later checks, but without values.
+/// `base` contains the standard errors of parameters, and `means` contains the values that the parameters
+/// have without the sample. If the distribution of a parameter is wrong, the sample contains this parameter
+/// without values, so that later checks can use the parameter.
 pub(super) fn read(
     entry: Option<&Entry<'_>>,
     base: &Base,
@@ -100,7 +102,8 @@ pub(super) fn read(
     Some((Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys, with_units }, None))
 }
 
-/// Returns the known parameters in `[sample.parameters]`, without reports of mistakes.
+/// Returns the indices of the parameters in `[sample.parameters]`. Unknown names are left out without a
+/// report.
 pub(super) fn sampled(section: Option<&Entry<'_>>, parameters: &[Parameter<'_>]) -> Vec<usize> {
     let sample = section.and_then(|section| section.value.get_ref().as_table());
     let sampled = sample.and_then(|sample| sample.get("parameters")?.get_ref().as_table());
@@ -108,8 +111,8 @@ pub(super) fn sampled(section: Option<&Entry<'_>>, parameters: &[Parameter<'_>])
     names.filter_map(|name| Parameter::index(parameters, name.get_ref())).collect()
 }
 
-/// Returns a sample of copies of the device, which vary in all parameters with standard errors, with the correlations
-/// of these parameters.
+/// Returns a sample of builds of the device. In this sample, all parameters with standard errors vary, with
+/// the correlations that the device states.
 fn of_device(
     section: &Entry<'_>,
     of: &Entry<'_>,
@@ -159,7 +162,8 @@ fn of_device(
     Some(Placed { axis: Axis::new(axis), span: section.key_span.clone(), keys, with_units })
 }
 
-/// Returns the number of points. If there is a mistake, reports the mistake and returns `None`.
+/// Returns the number of points of a sample. If the number is missing or wrong, reports a mistake and returns
+/// `None`.
 fn count(section: &Entry<'_>, entries: &[Entry<'_>], problems: &mut Problems) -> Option<u64> {
     let Some(entry) = table::find(entries, "n") else {
         problems
@@ -170,7 +174,7 @@ fn count(section: &Entry<'_>, entries: &[Entry<'_>], problems: &mut Problems) ->
     value::count("n", SamplePoints::MAX_POINTS, entry.value, problems)
 }
 
-/// Returns the seed, if the section has a seed.
+/// Returns the seed of the random points, if the section has a seed.
 fn seed(entries: &[Entry<'_>], problems: &mut Problems) -> Option<u64> {
     let value = table::find(entries, "seed")?.value;
     let integer = value.get_ref().as_integer();

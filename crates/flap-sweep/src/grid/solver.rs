@@ -1,4 +1,4 @@
-//! Section `[solver]`: tolerances and limits of the integration.
+//! Reads the section `[solver]` of a grid file: tolerances and limits of the integration.
 
 use flap_core::simulate::{SettingKind, SolverSettings};
 use toml::Spanned;
@@ -8,7 +8,7 @@ use super::diagnostic::Problems;
 use super::table::{self, Entry};
 use super::value;
 
-/// Returns the solver settings, with defaults for settings that are not given.
+/// Returns the solver settings. Settings that the grid file does not contain have their default values.
 pub(super) fn read(entry: Option<&Entry<'_>>, problems: &mut Problems) -> SolverSettings {
     let mut settings = SolverSettings::default();
     let Some(entry) = entry else {
@@ -41,7 +41,7 @@ pub(super) fn read(entry: Option<&Entry<'_>>, problems: &mut Problems) -> Solver
     settings
 }
 
-/// Returns a number that is more than zero and less than `limit`.
+/// Returns the number in `value`, which must be more than zero and less than `limit`.
 fn tolerance(key: &str, limit: f64, value: &Spanned<DeValue<'_>>, problems: &mut Problems) -> Option<f64> {
     let number = value::number(key, value, problems)?;
     if number > 0.0 && number < limit {

@@ -1,4 +1,4 @@
-//! TOML tables as lists of entries in the order of the file.
+//! Converts TOML tables to lists of entries in the order of the file.
 
 use std::ops::Range;
 
@@ -35,7 +35,8 @@ pub(super) struct Entry<'t> {
     pub(super) value: &'t Spanned<DeValue<'t>>,
 }
 
-/// Returns the entries of `table` in the order of the file. The table itself is sorted by key.
+/// Returns the entries of `table` in the order of the file. The TOML parser returns the entries in the order
+/// of their keys.
 pub(super) fn entries<'t>(table: &'t DeTable<'t>) -> Vec<Entry<'t>> {
     let mut entries: Vec<Entry<'t>> =
         table.iter().map(|(key, value)| Entry { key: key.get_ref(), key_span: key.span(), value }).collect();
@@ -43,12 +44,12 @@ pub(super) fn entries<'t>(table: &'t DeTable<'t>) -> Vec<Entry<'t>> {
     entries
 }
 
-/// Returns the entry called `key`.
+/// Returns the entry with the given key.
 pub(super) fn find<'e, 't>(entries: &'e [Entry<'t>], key: &str) -> Option<&'e Entry<'t>> {
     entries.iter().find(|entry| entry.key == key)
 }
 
-/// Returns the type of `value`, for messages.
+/// Returns words for the type of a TOML value, for use in messages, such as "a number".
 pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "text",
@@ -60,7 +61,7 @@ pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
     }
 }
 
-/// Returns the entries of a section, such as `[solver]`.
+/// Returns the entries of a section, such as `[solver]`. If the section is not a table, reports a mistake.
 pub(super) fn section<'t>(entry: &Entry<'t>, problems: &mut Problems) -> Vec<Entry<'t>> {
     if let DeValue::Table(table) = entry.value.get_ref() {
         return entries(table);
@@ -71,7 +72,7 @@ pub(super) fn section<'t>(entry: &Entry<'t>, problems: &mut Problems) -> Vec<Ent
     Vec::new()
 }
 
-/// Reports an unknown key.
+/// Reports that the key of `entry` is unknown, with the `allowed` keys.
 pub(super) fn report_unknown_key<'p>(
     entry: &Entry<'_>,
     allowed: &[&str],
@@ -85,7 +86,7 @@ pub(super) fn report_unknown_key<'p>(
         .did_you_mean(entry.key, allowed.iter().copied())
 }
 
-/// Reports every key that is not among `allowed`. Returns true if all keys are allowed.
+/// Reports every key that is not in the list `allowed`. Returns true if all keys are allowed.
 pub(super) fn check_keys(
     entries: &[Entry<'_>],
     allowed: &[&str],

@@ -1,4 +1,5 @@
-//! Values with an uncertainty: `{ value, sd, source }` in `[params]`, and `[[correlation]]`.
+//! Reads values with a standard error, such as `{ value, sd, source }` in `[params]`, and the tables
+//! `[[correlation]]`.
 
 use flap_core::parameter::{Kind, Parameter};
 use toml::Spanned;
@@ -13,9 +14,10 @@ use crate::plan::uncertainty::{Correlation, Uncertainty};
 pub(super) const VALUE_KEYS: [&str; 4] = ["value", "sd", "relative_sd", "source"];
 pub(super) const CORRELATION_KEYS: [&str; 2] = ["between", "coefficient"];
 
-/// Returns the value of an entry of `[params]`, and the standard error if the entry has a standard error.
+/// Returns the value of a parameter from an entry of `[params]`, and the standard error of this value if
+/// there is one.
 ///
-/// If there are mistakes, reports the mistakes and returns `None` as the value.
+/// If the entry has mistakes, reports the mistakes and returns `None` as the value.
 pub(super) fn of_parameter(
     parameter: &Parameter,
     entry: &Entry<'_>,
@@ -27,7 +29,7 @@ pub(super) fn of_parameter(
     }
 }
 
-/// Returns true for a range, which belongs to an axis.
+/// Returns true if the table is a range, which is allowed for axes but not for single values.
 fn is_range(table: &DeTable<'_>) -> bool {
     ["from", "to", "values"].into_iter().any(|key| table.contains_key(key))
 }
@@ -55,7 +57,7 @@ fn of_table(
     (number, number.and_then(|number| standard_error(parameter, number, &entries, problems)))
 }
 
-/// Returns the standard error in the unit of the parameter.
+/// Returns the standard error of a parameter, in the SI unit of the parameter.
 fn standard_error(
     parameter: &Parameter,
     number: f64,
@@ -89,7 +91,7 @@ fn standard_error(
     None
 }
 
-/// Reports an `sd` in per cent. Returns true if `sd` is in per cent.
+/// If the standard deviation `sd` is in per cent, reports a mistake and returns true.
 pub(super) fn report_share(sd: &Entry<'_>, problems: &mut Problems) -> bool {
     let is_share = sd.value.get_ref().as_str().is_some_and(|text| text.trim_end().ends_with('%'));
     if is_share {
@@ -100,7 +102,7 @@ pub(super) fn report_share(sd: &Entry<'_>, problems: &mut Problems) -> bool {
     is_share
 }
 
-/// Adds the correlations of the tables `[[correlation]]`.
+/// Reads the correlations in the tables `[[correlation]]`, and adds them to `uncertainty`.
 pub(super) fn correlations(
     entry: Option<&Entry<'_>>,
     uncertainty: &mut Uncertainty,
@@ -132,7 +134,8 @@ fn report_not_tables(value: &Spanned<DeValue<'_>>, problems: &mut Problems) {
         .help("write [[correlation]] above `between` and `coefficient`, once for each pair");
 }
 
-/// Adds a correlation. Returns the pair of parameters, which must not be one of the `earlier` pairs of the file.
+/// Reads a correlation, adds it to `uncertainty`, and returns its two parameters. `earlier` contains the
+/// pairs of parameters whose correlations have already been read.
 fn correlation(
     table: &DeTable<'_>,
     place: &Spanned<DeValue<'_>>,
@@ -170,7 +173,7 @@ fn correlation(
     Some(pair)
 }
 
-/// Returns the two parameters of a correlation. Both parameters must have standard errors.
+/// Returns the two parameters of a correlation, both of which must have standard errors.
 fn pair(entry: &Entry<'_>, uncertainty: &Uncertainty, lookup: &mut Lookup<'_>) -> Option<[usize; 2]> {
     let names = entry.value.get_ref().as_array().filter(|names| names.len() == 2);
     let Some(names) = names else {

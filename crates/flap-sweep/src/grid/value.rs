@@ -1,4 +1,4 @@
-//! Single values of parameters and settings.
+//! Reads single values of parameters and settings.
 
 use std::collections::HashMap;
 use std::ops::Range;
@@ -14,7 +14,7 @@ use crate::notation::value::{self, UnitOf, ValueError};
 
 type Value<'t> = Spanned<DeValue<'t>>;
 
-/// Returns the value of `parameter`: a number in SI units, or the index of an option.
+/// Returns the value of `parameter`, which is a number in SI units, or the index of an option of a choice.
 pub(super) fn of_parameter(parameter: &Parameter, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
     let found = match (&parameter.kind, value.get_ref()) {
         (_, DeValue::String(text)) => value::of_text(parameter, text, UnitOf::Text),
@@ -49,10 +49,12 @@ fn report(parameter: &Parameter, error: &ValueError, value: &Value<'_>, problems
     }
 }
 
-/// Keys of numbers in a value with an error, a range or a distribution.
+/// Keys after which tables contain numbers: tables for a value with a standard error, a range or a
+/// distribution.
 const NUMBERS: [&str; 4] = ["value", "from", "to", "mean"];
 
-/// Returns true if all numbers of a value, list, range or distribution have units; `None` if it contains no numbers.
+/// Returns true if all numbers in a value, list, range or distribution have units. If there are no numbers,
+/// returns `None`.
 pub(super) fn has_units(value: &Value<'_>) -> Option<bool> {
     match value.get_ref() {
         DeValue::String(text) => Some(units::has_unit(text)),
@@ -84,13 +86,13 @@ pub(super) fn option(
     index
 }
 
-/// Reports the value of a choice that is not text.
+/// Reports that the value of a choice is not text.
 fn report_no_text(name: &str, options: &[&str], value: &Value<'_>, problems: &mut Problems) {
     let message = format!("`{name}` is a choice between options, not {}", table::kind(value.get_ref()));
     problems.report(value.span(), message).note(listed(options));
 }
 
-/// Reports text that is not the name of an option.
+/// Reports that a text is not the name of an option of a choice.
 fn report_no_option(name: &str, options: &[&str], text: &str, value: &Value<'_>, problems: &mut Problems) {
     problems
         .report(value.span(), format!("`{name}` has no option `{text}`"))
@@ -99,13 +101,13 @@ fn report_no_option(name: &str, options: &[&str], text: &str, value: &Value<'_>,
         .did_you_mean(text, options.iter().copied());
 }
 
-/// Returns the options in quotes.
+/// Returns text that lists the options of a choice in quotes.
 fn listed(options: &[&str]) -> String {
     let quoted: Vec<String> = options.iter().map(|option| format!("\"{option}\"")).collect();
     format!("options: {}", quoted.join(", "))
 }
 
-/// Returns a number in the SI unit `unit`, from a number or from text with a unit.
+/// Converts a value, which is a bare number or text with a unit, to a number in the SI unit `unit`.
 pub(super) fn quantity(name: &str, unit: &str, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
     let DeValue::String(text) = value.get_ref() else {
         if let DeValue::Integer(_) | DeValue::Float(_) = value.get_ref() {
@@ -133,7 +135,7 @@ pub(super) fn quantity(name: &str, unit: &str, value: &Value<'_>, problems: &mut
     }
 }
 
-/// Returns a number without quotes, for settings without a unit.
+/// Returns the number in `value`, which must not be in quotes. The function is for settings without a unit.
 pub(super) fn number(name: &str, value: &Value<'_>, problems: &mut Problems) -> Option<f64> {
     let number = match value.get_ref() {
         DeValue::Integer(integer) => integer_as_float(integer),
@@ -147,7 +149,7 @@ pub(super) fn number(name: &str, value: &Value<'_>, problems: &mut Problems) -> 
     number.map_err(|error| report_unit_error(name, value.span(), &error, problems)).ok()
 }
 
-/// Returns `true` or `false`.
+/// Returns the value of a key that must be `true` or `false`.
 pub(super) fn boolean(name: &str, value: &Value<'_>, problems: &mut Problems) -> Option<bool> {
     let found = value.get_ref().as_bool();
     if found.is_none() {
@@ -157,7 +159,7 @@ pub(super) fn boolean(name: &str, value: &Value<'_>, problems: &mut Problems) ->
     found
 }
 
-/// Returns a whole number from 1 to `most`.
+/// Returns the whole number in `value`, which must be from 1 to `most`.
 pub(super) fn count(name: &str, most: u64, value: &Value<'_>, problems: &mut Problems) -> Option<u64> {
     let found = match value.get_ref() {
         DeValue::Integer(integer) if integer_as_float(integer).is_ok_and(|number| number >= 1.0) => {
@@ -176,13 +178,13 @@ pub(super) fn count(name: &str, most: u64, value: &Value<'_>, problems: &mut Pro
     None
 }
 
-/// Returns a number in its usual form: `5`, not `5.0`.
+/// Formats a number for messages, with `5` in place of `5.0`.
 pub(super) fn shown(number: f64) -> String {
     let text = format!("{number:?}");
     text.strip_suffix(".0").unwrap_or(&text).to_owned()
 }
 
-/// Returns text that is not empty.
+/// Returns the text in `value`, which must not be empty.
 pub(super) fn text<'t>(name: &str, value: &'t Value<'_>, problems: &mut Problems) -> Option<&'t str> {
     match value.get_ref().as_str() {
         Some("") => {
@@ -198,8 +200,8 @@ pub(super) fn text<'t>(name: &str, value: &'t Value<'_>, problems: &mut Problems
     }
 }
 
-/// Returns the names in a list, each with its position, and reports repeated names. `wanted` completes the message
-/// "`key` must be …"; `help` may be empty.
+/// Returns the names in a list, each with its position in the file, and reports names that occur twice.
+/// `wanted` is the end of the message "`key` must be …". `help` is advice for this message, or an empty text.
 pub(super) fn names<'t>(
     entry: &Entry<'t>,
     wanted: &str,
@@ -259,9 +261,11 @@ fn decimal(text: &str) -> Result<f64, UnitError> {
     number.shifted(0)
 }
 
-/// Returns the bytes of the file for the bytes `part` in the text of a TOML string.
+/// Returns the position in the file of a part of a TOML string. `span` is the position of the whole string,
+/// and `part` is the range of bytes in its text.
 ///
-/// If the text differs from the file because of escapes, returns the position of the whole string.
+/// If the string in the file contains escape sequences such as `\n`, returns the position of the whole
+/// string.
 pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<usize>) -> Range<usize> {
     let raw = file.get(span.clone()).unwrap_or_default();
     let quotes = ["\"\"\"", "'''", "\"", "'"].into_iter().find(|quotes| raw.starts_with(quotes));
@@ -275,8 +279,8 @@ pub(super) fn inside(file: &str, span: Range<usize>, text: &str, part: &Range<us
     }
 }
 
-/// Reports a value of the wrong `shape`, such as "ranges", for a parameter that is a choice and accepts a list. Returns
-/// false if the parameter is not a choice.
+/// If a parameter is a choice, reports that its value cannot be a range or a distribution, and returns true.
+/// `shape` is the word for the wrong value in the message, for example "ranges".
 pub(super) fn report_choice(
     parameter: &Parameter,
     entry: &Entry<'_>,

@@ -1,4 +1,5 @@
-//! Section `[vehicle]`: wings, positions of wings, and differences between wings.
+//! Reads the section `[vehicle]`: the wings of a vehicle, their positions, and the differences between the
+//! wings.
 
 use std::ops::Range;
 
@@ -38,42 +39,45 @@ pub(super) const WING_KEYS: [&str; 7] =
     ["name", "mirrored", "position", "plane", "preset", "device", "params"];
 pub(super) const PLANE_KEYS: [&str; 3] = ["roll", "pitch", "yaw"];
 
-/// Body axes: last parts of the names of parameters.
+/// Names of the body axes, which are the last parts of parameter names such as `about_x`.
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-/// Value of the key `trim`.
+/// The only allowed value of the key `trim`, for rows at hover.
 pub(super) const HOVER: &str = "hover";
 
-/// Group of the parameters that are the same for all wings and the grid, even if wings have their own design.
+/// Group of the drive parameters. If a wing has its own design, the drive parameters of this design are
+/// ignored.
 const DRIVE: &str = "drive";
 
-/// Results of the section `[vehicle]` that other sections of a grid file require.
+/// Contents of the section `[vehicle]` that are necessary for reading the other sections of a grid file.
 #[derive(Default)]
 pub(super) struct VehicleSettings {
-    /// Parameters that the section sets, with the positions of their entries.
+    /// Parameters that the section `[vehicle]` sets, with the positions of their keys in the file.
     pub(super) set: Vec<(usize, Range<usize>)>,
-    /// Position of the key `damping` if rows have the damping matrix.
+    /// Position of the key `damping`, if the rows contain the damping matrix.
     damping: Option<Range<usize>>,
-    /// Position of the key `trim` if rows are computed at hover.
+    /// Position of the key `trim`, if the rows are computed at hover.
     trim: Option<Range<usize>>,
-    /// Wings whose design has a different drive frequency from the grid, each with a position in the file and a
-    /// message.
+    /// Messages about wings whose design has a different drive frequency from the vehicle, each with a
+    /// position in the file.
     frequencies: Vec<(Range<usize>, String)>,
 }
 
-/// Mass of the vehicle, which determines the lift at hover.
+/// Name of the parameter for the mass of the vehicle, which determines the lift at hover.
 const TOTAL_MASS: &str = "total_mass";
 
 impl VehicleSettings {
-    /// Adds the mistakes of the same section with another design.
+    /// Adds the messages about drive frequencies that resulted from another design with the same section
+    /// `[vehicle]`.
     pub(super) fn append(&mut self, other: VehicleSettings) {
         self.frequencies.extend(other.frequencies);
     }
 
-    /// Returns the source of rows at hover or with the damping matrix, if the section requests such rows.
+    /// If the section `[vehicle]` requests rows at hover or with the damping matrix, returns the source of
+    /// these rows.
     ///
-    /// `is_set` returns true for a parameter with a value. `varied` contains the parameters of axes, and `derived` the
-    /// parameters that formulas determine.
+    /// `is_set` returns true for a parameter with a value. `varied` contains the parameters of axes, and
+    /// `derived` contains the parameters that formulas determine.
     pub(super) fn body_rows(
         &self,
         base: &Base,
@@ -118,7 +122,8 @@ impl VehicleSettings {
         Some(BodyRows::new(Arc::clone(vehicle), inputs, self.damping.is_some()))
     }
 
-    /// Reports wings with other drive frequencies, unless the grid `sets` the frequency of all wings.
+    /// Reports wings whose design has a different drive frequency from the vehicle. If the grid file sets the
+    /// drive frequency of all wings, nothing is reported.
     pub(super) fn report_frequencies(
         self,
         parameters: &[Parameter],
@@ -135,8 +140,8 @@ impl VehicleSettings {
     }
 }
 
-/// Turns the design `base` into a vehicle if the section is present. If a vehicle is impossible, reports a mistake and
-/// returns `None`.
+/// If the grid file has the section `[vehicle]`, turns the design `base` into a vehicle with the wings of
+/// this section. If a vehicle is impossible, reports a mistake and returns `None`.
 pub(super) fn read(
     root: &[Entry<'_>],
     base: Base,
@@ -200,9 +205,10 @@ pub(super) fn read(
     Some((Base { robot: Robot::of_vehicle(vehicle), ..shared }, settings))
 }
 
-/// Returns the parameters among `chosen` that affect no wing, because each wing has its own value.
+/// Returns the parameters in `chosen` that affect no wing, because each wing has its own value of the
+/// parameter.
 ///
-/// `is_own` returns true for a parameter of the vehicle that a wing sets.
+/// `is_own` returns true for a parameter of one wing that the grid file sets.
 pub(super) fn unreached(
     vehicle: &Vehicle,
     chosen: &[usize],
@@ -220,7 +226,7 @@ pub(super) fn unreached(
 /// Table of a wing, and the entries of the table.
 type WingTable<'t> = (&'t Spanned<DeValue<'t>>, Vec<Entry<'t>>);
 
-/// Returns the tables of the wings.
+/// Returns the tables `[[vehicle.wings]]` of a grid file, one for each wing.
 fn wings<'t>(
     section: &Entry<'t>,
     entries: &[Entry<'t>],
@@ -248,7 +254,7 @@ fn wings<'t>(
     Some(wings)
 }
 
-/// Returns name and side of a wing.
+/// Returns the name of a wing, and whether the wing is mirrored.
 fn mount((item, entries): &WingTable<'_>, problems: &mut Problems) -> Option<Mount> {
     let Some(name) = table::find(entries, "name") else {
         problems.report(item.span(), "the wing has no `name`").help("write name = \"left\"");
@@ -271,7 +277,7 @@ fn mount((item, entries): &WingTable<'_>, problems: &mut Problems) -> Option<Mou
     Some(Mount { name, mirrored })
 }
 
-/// Reports a vehicle that cannot be created, at the wing concerned.
+/// Reports why a vehicle cannot be created, at the position of the wing that causes the mistake.
 fn report(error: &VehicleError, section: &Entry<'_>, wings: &[WingTable<'_>], problems: &mut Problems) {
     let wanted = match error {
         VehicleError::Name(name) | VehicleError::SameName(name) => Some(name),
@@ -293,7 +299,7 @@ fn report(error: &VehicleError, section: &Entry<'_>, wings: &[WingTable<'_>], pr
     }
 }
 
-/// Returns the remedy for a vehicle that cannot be created.
+/// Returns advice for a vehicle that cannot be created.
 fn remedy(error: &VehicleError) -> &'static str {
     match error {
         VehicleError::NoWings => {
@@ -307,16 +313,16 @@ fn remedy(error: &VehicleError) -> &'static str {
     }
 }
 
-/// Returns true if a wing sets the parameter itself.
+/// Returns true if the table of a wing sets `parameter` under `params`.
 fn sets(entries: &[Entry<'_>], parameter: &str) -> bool {
     let params = table::find(entries, "params").and_then(|entry| entry.value.get_ref().as_table());
     params.is_some_and(|params| params.contains_key(parameter))
 }
 
-/// Reader of the values of a vehicle and its wings.
+/// Reads the values of a vehicle and its wings.
 struct VehicleReader<'o> {
     vehicle: &'o Vehicle,
-    /// Design of all wings, with the values of the vehicle.
+    /// The design that all wings have in common, with the additional parameters of the vehicle.
     shared: Base,
     settings: VehicleSettings,
     problems: &'o mut Problems,
@@ -324,7 +330,7 @@ struct VehicleReader<'o> {
 }
 
 impl VehicleReader<'_> {
-    /// Reads a parameter of the vehicle.
+    /// Reads the value of a parameter of the vehicle.
     fn number(&mut self, name: &str, entry: &Entry<'_>) {
         let parameters = self.vehicle.parameters();
         let Some(index) = Parameter::index(parameters, name) else { return };
@@ -344,7 +350,7 @@ impl VehicleReader<'_> {
         self.shared.uncertainty.set(index, error);
     }
 
-    /// Reads three lengths along the body axes.
+    /// Reads a list of three lengths, along the x, y and z axes of the body.
     fn vector(&mut self, entry: &Entry<'_>, name: impl Fn(&str) -> String) {
         let list = entry.value.get_ref().as_array().filter(|list| list.len() == 3);
         let Some(list) = list else {
@@ -360,7 +366,7 @@ impl VehicleReader<'_> {
         }
     }
 
-    /// Reads position, design and parameters of a wing.
+    /// Reads the position, the stroke plane, the design and the parameters of a wing.
     fn wing(&mut self, index: usize, (_, entries): &WingTable<'_>) {
         let name = &self.vehicle.mounts()[index].name;
         if let Some(entry) = table::find(entries, "position") {
@@ -401,7 +407,8 @@ impl VehicleReader<'_> {
         }
     }
 
-    /// Reads the preset or device of a wing: all numbers except the numbers of the drive.
+    /// Reads the preset or device of a wing. The wing gets all numbers of this design except the drive
+    /// parameters.
     fn design(&mut self, index: usize, entries: &[Entry<'_>]) {
         let Some(begin) = table::find(entries, "preset").or_else(|| table::find(entries, "device")) else {
             return;

@@ -1,4 +1,4 @@
-//! Device files as text.
+//! Writes designs as text in the form of device files.
 
 use std::fmt::Write as _;
 
@@ -8,7 +8,7 @@ use crate::notation::{UserError, text, units};
 use crate::plan::uncertainty::Correlation;
 use crate::plan::{Plan, Value, not_allowed};
 
-/// Width of comments, in characters.
+/// Largest width of a comment line in a device file, in characters.
 const WIDTH: usize = 110;
 
 const HEAD: &str = "\
@@ -18,11 +18,12 @@ const HEAD: &str = "\
 # Parameters that are not listed here have the values of the preset.
 ";
 
-/// Returns the text of a device with all values of a plan before its axes are applied, or of its first design. Derived
-/// parameters have the values of their formulas.
+/// Returns the text of a device file that contains the values of a plan before its axes change these values.
+/// If the plan has several designs, the text contains the values of the first design. Derived parameters have
+/// the values of their formulas.
 ///
-/// Every parameter has a comment with the description and the range of the parameter. The text reads back as the same
-/// numbers, bit for bit.
+/// Every parameter has a comment with the description and the range of the parameter. If flap reads the text
+/// again, the numbers are the same, bit for bit.
 ///
 /// # Errors
 /// - [`UserError`] if a derived parameter depends on an axis or has a value that is not allowed.
@@ -79,7 +80,8 @@ pub fn device(plan: &Plan) -> Result<String, UserError> {
     Ok(page)
 }
 
-/// Returns the `value` of a derived parameter, if the value is allowed and the same in all points.
+/// Returns the `value` of a derived parameter. If the value is not allowed, or differs between the points of
+/// the plan, returns an error.
 fn derived_value(plan: &Plan, index: usize, value: f64) -> Result<f64, UserError> {
     let parameter = &plan.parameters()[index];
     let mut axes = plan.axes().varied().filter(|varied| plan.design() != Some(*varied));
@@ -98,7 +100,7 @@ fn derived_value(plan: &Plan, index: usize, value: f64) -> Result<f64, UserError
     }
 }
 
-/// Returns description, symbol and range of a parameter.
+/// Returns a comment with the description, symbol and range of a parameter.
 fn comment(parameter: &Parameter) -> String {
     let mut facts = Vec::new();
     if !parameter.symbol.is_empty() {
@@ -111,7 +113,8 @@ fn comment(parameter: &Parameter) -> String {
     wrapped(&format!("{} [{}]", parameter.doc, facts.join("; ")))
 }
 
-/// Returns a comment in lines of at most [`WIDTH`] characters, unless a word is longer.
+/// Returns `text` as a comment in lines of at most [`WIDTH`] characters. Only a word that is longer than a
+/// line exceeds this width.
 fn wrapped(text: &str) -> String {
     let mut page = String::new();
     let mut line = "#".to_owned();
@@ -127,7 +130,7 @@ fn wrapped(text: &str) -> String {
     page + &line + "\n"
 }
 
-/// Returns the line of a parameter. The line is a comment if the parameter is not set.
+/// Returns the line of a device file for a parameter. If the parameter is not set, the line is a comment.
 fn line(parameter: &Parameter, value: Option<f64>, error: Option<f64>) -> String {
     let Parameter { name, unit, .. } = parameter;
     let Some(value) = value else {
@@ -147,11 +150,11 @@ fn line(parameter: &Parameter, value: Option<f64>, error: Option<f64>) -> String
     }
 }
 
-/// Returns the text of a device with the `parameters` of a wing (by name, in SI units), based on a preset or device
-/// called `base`.
+/// Returns the text of a device file that is based on the preset or device `base`, with new values of the
+/// `parameters` of a wing. `parameters` contains names and values in SI units.
 ///
-/// Values are rounded to ten digits. A comment after each value shows the previous value, and marks fitted values of
-/// a preset.
+/// Values are rounded to ten digits. A comment after each value shows the value in `base`. If this value was
+/// fitted to one vehicle, the comment also contains a note about the fit.
 pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
     let kind = if base == plan.preset() { "preset" } else { "device" };
     let mut page = format!("{kind} = \"{base}\"\n\n[params]\n");

@@ -1,4 +1,4 @@
-//! Distribution of a sampled parameter: `{ from, to }`, `{ mean, sd }`, or a list.
+//! Reads the distribution of a sampled parameter, such as `{ from, to }`, `{ mean, sd }` or a list of values.
 
 use flap_core::parameter::Parameter;
 use toml::de::DeValue;
@@ -16,9 +16,11 @@ const TOO_WIDE: &str = "the range is too wide for 64-bit floats";
 const NOTE: &str = "distributions look like { from = 1, to = 5 }, { from = 1, to = 5, scale = \"log\" }, \
                     { mean = 3, sd = 0.1 }, { relative_sd = \"5 %\" } or [1, 2, 5]";
 
-/// Returns the distribution of `parameter`. If there are mistakes, reports the mistakes and returns `None`.
+/// Returns the distribution of `parameter`. If the distribution has mistakes, reports the mistakes and
+/// returns `None`.
 ///
-/// `base` is the value of the parameter without a sample.
+/// `base` is the value that the parameter has without the sample, and the default mean of a normal
+/// distribution.
 pub(super) fn read(
     parameter: &Parameter,
     base: Value,
@@ -56,7 +58,8 @@ pub(super) fn read(
     if has("mean") || has("sd") || has("relative_sd") { reader.normal(base) } else { reader.uniform() }
 }
 
-/// Reader of one distribution. If there are mistakes, the methods report the mistakes and return `None`.
+/// Reads one distribution. If the distribution has mistakes, the methods of this type report the mistakes and
+/// return `None`.
 struct Reader<'a, 't> {
     parameter: &'a Parameter<'a>,
     /// Entry of the sampled parameter in the file.
@@ -67,7 +70,8 @@ struct Reader<'a, 't> {
 }
 
 impl Reader<'_, '_> {
-    /// Returns an end of the range, if the end is given. If the end is wrong, reports a mistake and returns `Err`.
+    /// Returns the number after `key`, or `None` if the distribution does not contain `key`. If the number is
+    /// wrong, reports a mistake and returns `Err`.
     fn end(&mut self, key: &str) -> Result<Option<f64>, ()> {
         match table::find(self.entries, key) {
             Some(entry) => {
@@ -115,7 +119,7 @@ impl Reader<'_, '_> {
         self.checked(Distribution::Normal { mean, sd, from, to })
     }
 
-    /// Returns the standard deviation in the unit of the parameter.
+    /// Returns the standard deviation of a normal distribution, in the SI unit of the parameter.
     fn sd(&mut self, mean: f64) -> Option<f64> {
         let (absolute, relative) =
             (table::find(self.entries, "sd"), table::find(self.entries, "relative_sd"));
@@ -153,7 +157,8 @@ impl Reader<'_, '_> {
         None
     }
 
-    /// Returns the distribution, if values can be drawn from the distribution.
+    /// Returns the distribution if values can be drawn from it. Otherwise, reports a mistake and returns
+    /// `None`.
     fn checked(&mut self, distribution: Distribution) -> Option<Distribution> {
         let mistake = match distribution {
             Distribution::Uniform { from, to }

@@ -1,4 +1,5 @@
-//! A sample from a file: a CSV table of points with the names of parameters as headings.
+//! Reads a sample from a file. The file is a CSV table with one point per line, and its headings are names of
+//! parameters.
 
 use std::ops::Range;
 use std::sync::Arc;
@@ -16,13 +17,15 @@ use crate::notation::value::{self, UnitOf};
 use crate::plan::axes::{Axis, Values};
 use crate::plan::{PointsFile, Source};
 
-/// Largest number of reported cells. A file with more mistakes probably has the wrong columns.
+/// Largest number of wrong cells and lines that are reported. If a file has more mistakes, its columns are
+/// probably wrong.
 const MOST_CELLS: usize = 10;
 
-/// Largest number of bytes in a line. A typical line of headings or numbers is much shorter.
+/// Largest allowed number of bytes in a line of the file. A typical line of headings or numbers is much
+/// shorter.
 const LONGEST_LINE: usize = 1 << 20;
 
-/// Returns the points of the file that the section names.
+/// Returns the points in the file that the section `[sample]` names.
 pub(super) fn read(
     section: &Entry<'_>,
     entries: &[Entry<'_>],
@@ -57,16 +60,16 @@ pub(super) fn read(
     Some((Placed { axis, span: section.key_span.clone(), keys, with_units }, file))
 }
 
-/// A column of the file.
+/// A column of the file of points.
 struct Column<'t, 'p> {
     index: usize,
     parameter: &'p Parameter<'p>,
-    /// Unit in the heading of a column. Numbers in the cells of the column have the unit in the heading.
+    /// Unit in the heading of the column. The numbers in the cells of the column are in this unit.
     unit: Option<&'t str>,
 }
 
-/// Returns the values of the parameters, each with a flag that is true if the heading of its column has a unit. The
-/// function also returns true if there are no mistakes.
+/// Returns the index of the parameter and the values of each column, and true if the heading of the column
+/// has a unit. The second part of the result is true if the file has no mistakes.
 fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values, bool)>, bool) {
     if let Some(line) = source.text.lines().find(|line| line.len() > LONGEST_LINE) {
         let begin = line.as_ptr().addr() - source.text.as_ptr().addr();
@@ -122,7 +125,7 @@ fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values
     (columns.collect(), mistakes == 0)
 }
 
-/// Returns the parameter of a heading with or without a unit: `wing_area` or `wing_area [mm^2]`.
+/// Returns the column that a heading such as `wing_area` or `wing_area [mm^2]` describes.
 fn heading<'t, 'p>(
     text: &'t str,
     span: &Range<usize>,
@@ -155,7 +158,8 @@ fn heading<'t, 'p>(
     Some(Column { index, parameter, unit })
 }
 
-/// Returns name and unit of a heading; `None` if the brackets of the heading are not a pair at the end.
+/// Splits a heading into the name and the unit in brackets. If the brackets do not enclose a unit at the end
+/// of the heading, returns `None`.
 fn split_unit(heading: &str) -> Option<(&str, Option<&str>)> {
     let Some((name, rest)) = heading.split_once('[') else {
         return (!heading.contains(']')).then_some((heading, None));
@@ -164,20 +168,21 @@ fn split_unit(heading: &str) -> Option<(&str, Option<&str>)> {
     (!name.contains(']') && !unit.contains(['[', ']'])).then(|| (name.trim(), Some(unit.trim())))
 }
 
-/// Returns the value of a cell, or the mistake in the cell and advice.
+/// Returns the value of a cell. If the cell is wrong, returns a message about the mistake, and advice.
 fn value(column: &Column<'_, '_>, text: &str) -> Result<f64, (String, Option<String>)> {
     let unit = column.unit.map_or(UnitOf::TextOrSi, UnitOf::Column);
     value::of_text(column.parameter, text, unit)
         .map_err(|error| (error.message(column.parameter.name, text), error.help()))
 }
 
-/// A cell: the text without surrounding blanks and quotes, and the position of its bytes in the file.
+/// A cell of the table: the text without surrounding blanks and quotes, and the position of its bytes in the
+/// file.
 type Cell<'t> = (&'t str, Range<usize>);
 
-/// Returns the lines of a CSV file that are not blank.
+/// Returns the cells of each line of a CSV file, without blank lines.
 ///
-/// Numbers, units and options contain no commas. Quotes therefore need no special treatment, and the bytes of cells
-/// are known.
+/// Numbers, units and options contain no commas, so a comma always ends a cell, even between quotes. For this
+/// reason, the position of each cell in the file can be computed.
 fn lines(text: &str) -> impl Iterator<Item = Vec<Cell<'_>>> {
     let reader = csv::ReaderBuilder::new()
         .has_headers(false)
@@ -188,7 +193,7 @@ fn lines(text: &str) -> impl Iterator<Item = Vec<Cell<'_>>> {
     records.map(|record| cells(text, &record)).filter(|cells| cells.len() > 1 || !cells[0].1.is_empty())
 }
 
-/// Returns the cells of a record of the CSV file `text`.
+/// Returns the cells of one line of the CSV file `text`. `record` is this line as the CSV reader returned it.
 fn cells<'t>(text: &'t str, record: &ByteRecord) -> Vec<Cell<'t>> {
     let position =
         record.position().and_then(|position| usize::try_from(position.byte()).ok()).unwrap_or_default();

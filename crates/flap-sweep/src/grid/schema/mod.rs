@@ -1,8 +1,8 @@
-//! JSON schema of grid files, from the tables that the check of grid files uses. Editors use the schema to complete
-//! keys and show mistakes.
+//! JSON schema of grid files. The schema is generated from the same lists of keys as the checks of grid
+//! files. Editors use the schema to complete keys and show mistakes.
 //!
-//! The schema accepts every grid that the check accepts. The schema rejects unknown keys, options and types. The schema
-//! does not check units, formulas and contradictions.
+//! The schema accepts every grid file that flap accepts. The schema rejects unknown keys, unknown options and
+//! values of wrong types. The schema does not check units, formulas and contradictions.
 
 mod model;
 mod sections;
@@ -13,13 +13,14 @@ use serde_json::{Value, json};
 
 use super::table::KEYS;
 
-/// Returns the schema of grid files with the presets of these models (draft 2020-12).
+/// Returns the JSON schema of grid files that start from the presets of `models`, in the version 2020-12 of
+/// JSON Schema.
 pub fn of_models(models: &[&'static dyn Simulator]) -> Value {
     root(models, None)
 }
 
-/// Returns the schema of grid files with the presets of one model. The parameters' defaults are the values of
-/// `preset`.
+/// Returns the JSON schema of grid files that start from a preset of one model. In this schema, the defaults
+/// of the parameters are the values of `preset`.
 pub fn of_preset(model: &'static dyn Simulator, preset: &Preset) -> Value {
     root(&[model], Some(preset))
 }
@@ -60,10 +61,11 @@ fn root(models: &[&'static dyn Simulator], defaults: Option<&Preset>) -> Value {
     schema
 }
 
-/// Returns the schema of a section that differs between models. The preset determines which model applies.
+/// Returns the JSON schema of a section whose keys depend on the model. The preset in the grid file
+/// determines the model.
 ///
-/// The schema lists the sections of all models, so that editors offer all keys, and the empty schema, which accepts
-/// anything.
+/// The schema is a list of alternatives: the section of each model, so that editors offer all keys, and an
+/// empty schema, which accepts anything.
 fn either(section: &str, models: &[&'static dyn Simulator]) -> Value {
     let references =
         models.iter().map(|model| sections::to(&format!("{}/properties/{section}", model.name())));
@@ -71,10 +73,10 @@ fn either(section: &str, models: &[&'static dyn Simulator]) -> Value {
     json!({"description": sections::about(section), "anyOf": any})
 }
 
-/// Returns the rules of the model whose preset the grid names.
+/// Returns a JSON schema that applies the rules of a model if the grid file names a preset of this model.
 ///
-/// The preset of a device is unknown. A grid that starts from a device has the rules of the model `only`, if `only` is
-/// given.
+/// If a grid file starts from a device, the schema does not show the preset of the device. If `only` is true,
+/// such a grid file has the rules of the first model in `models`.
 fn by_preset(models: &[&'static dyn Simulator], only: bool) -> Value {
     let begins = json!({"if": {"required": ["device"]}, "else": {"required": ["preset"]}});
     let Some((model, others)) = models.split_first() else { return begins };

@@ -1,5 +1,5 @@
-//! Schemas of one model: of each parameter as a value, an axis and a distribution, and of the sections that contain
-//! parameters.
+//! JSON schemas of one model: for each parameter as a value, as an axis and as a distribution, and for the
+//! sections that contain parameters.
 
 use std::fmt::Write as _;
 
@@ -18,8 +18,8 @@ use crate::plan::sample::SamplePoints;
 use crate::resonance::{DRIVE_FREQUENCY, measures};
 use crate::table::layout::{Fixed, RUN};
 
-/// Returns the definitions of numbers that describe axes and distributions. These definitions are the same for all
-/// parameters.
+/// Returns JSON schemas of keys that are the same for all parameters, such as `n` of a range and `sd` of a
+/// distribution.
 pub(super) fn shared() -> Map<String, Value> {
     let keys = ["n", "step", "scale", "sd", "relative_sd", "source"];
     sections::properties(keys, |key| match key {
@@ -34,7 +34,7 @@ pub(super) fn shared() -> Map<String, Value> {
     })
 }
 
-/// Returns the schema of a single value of parameter number `place`.
+/// Returns the JSON schema of a single value of parameter number `place`.
 pub(super) fn value(model: &dyn Simulator, place: usize, defaults: Option<&Preset>) -> Value {
     let parameter = &model.parameters()[place];
     let description = description(model, place);
@@ -53,7 +53,7 @@ pub(super) fn value(model: &dyn Simulator, place: usize, defaults: Option<&Prese
     schema
 }
 
-/// Adds the range of numbers to the schema.
+/// Adds the allowed range of a parameter to the JSON schema of its value.
 fn limit(schema: &mut Value, allowed: Range) {
     let limits = match allowed {
         Range::Any => vec![],
@@ -72,7 +72,8 @@ fn limit(schema: &mut Value, allowed: Range) {
     }
 }
 
-/// Returns a default in the form of a grid file.
+/// Returns the default value of a parameter in the form that a grid file contains, for example as text with a
+/// unit.
 fn default_of(parameter: &Parameter, value: f64) -> Value {
     match parameter.kind {
         Kind::Choice(_) => json!(text::value(parameter, value)),
@@ -81,7 +82,7 @@ fn default_of(parameter: &Parameter, value: f64) -> Value {
     }
 }
 
-/// Returns description, symbol, unit, range, and the values of the presets.
+/// Returns text about a parameter: its meaning, symbol, unit and range, and its values in the presets.
 fn description(model: &dyn Simulator, place: usize) -> String {
     let parameter = &model.parameters()[place];
     let Parameter { unit, symbol, kind, .. } = parameter;
@@ -105,12 +106,12 @@ fn description(model: &dyn Simulator, place: usize) -> String {
     lines
 }
 
-/// Returns the description as a sentence.
+/// Returns the meaning of a parameter as a sentence.
 fn meaning(parameter: &Parameter) -> String {
     capitalized(parameter.doc.trim_end_matches('.')) + "."
 }
 
-/// Returns a description of the unit and the range.
+/// Returns text that describes the unit and the range of a parameter.
 fn numbers(unit: &str, range: Range) -> String {
     let form = if unit.is_empty() {
         "A number, or text such as \"5 %\"".to_owned()
@@ -120,7 +121,8 @@ fn numbers(unit: &str, range: Range) -> String {
     format!("\n\n{form}; {}.", range.describe())
 }
 
-/// Returns the schema of a value with its standard error. `value` is the schema of the value.
+/// Returns the JSON schema of a table that contains a value and its standard error. `value` is the schema of
+/// the value alone.
 pub(super) fn uncertain(parameter: &Parameter, value: &Value) -> Value {
     let keys =
         sections::properties(
@@ -134,8 +136,8 @@ pub(super) fn uncertain(parameter: &Parameter, value: &Value) -> Value {
     table
 }
 
-/// Returns the schema of the values of a parameter along an axis: a list or a range. `value` is the schema of one
-/// value.
+/// Returns the JSON schema of an axis of a parameter: a list or a range of values. `value` is the schema of
+/// one value.
 pub(super) fn axis(parameter: &Parameter, value: &Value) -> Value {
     let meaning = meaning(parameter);
     if let Kind::Choice(_) = parameter.kind {
@@ -165,7 +167,8 @@ pub(super) fn axis(parameter: &Parameter, value: &Value) -> Value {
     })
 }
 
-/// Returns the schema of a distribution of a parameter, or a list of values. `value` is the schema of one value.
+/// Returns the JSON schema of a distribution of a parameter, or of a list of its values. `value` is the
+/// schema of one value.
 pub(super) fn distribution(parameter: &Parameter, value: &Value) -> Value {
     if let Kind::Choice(_) = parameter.kind {
         return axis(parameter, value);
@@ -191,8 +194,8 @@ pub(super) fn distribution(parameter: &Parameter, value: &Value) -> Value {
     })
 }
 
-/// Adds the rules of a model to the definitions of a schema, under the model's name, and the definitions of its
-/// parameters.
+/// Adds the JSON schemas of a model to `definitions`: schemas of each parameter, and, under the model's name,
+/// the schema of its sections.
 pub(super) fn define(
     model: &'static dyn Simulator,
     defaults: Option<&Preset>,
@@ -216,12 +219,13 @@ pub(super) fn define(
     definitions.insert(name.to_owned(), sections(model));
 }
 
-/// Name of the definition of measures.
+/// Last part of the name of the JSON schema that lists the measures of a model.
 const MEASURE: &str = "measure";
-/// Name of the definition of columns.
+/// Last part of the name of the JSON schema that lists the columns of a model.
 const COLUMN: &str = "column";
 
-/// Returns the name of a definition.
+/// Returns the name of the JSON schema of a parameter. `role` is the use of the parameter, for example
+/// "axis".
 fn key(model: &str, parameter: &Parameter, role: &str) -> String {
     format!("{model}.{}.{role}", parameter.name)
 }
@@ -258,7 +262,7 @@ fn sections(model: &'static dyn Simulator) -> Value {
     })
 }
 
-/// Returns a table with a key for each parameter.
+/// Returns the JSON schema of a table that can have a key for each parameter.
 fn keyed<'p>(
     description: &str,
     parameters: impl IntoIterator<Item = &'p Parameter<'p>>,
@@ -268,7 +272,8 @@ fn keyed<'p>(
     sections::table(description, keys.collect())
 }
 
-/// Returns a single value, or a table with its standard error. The drive frequency may also be the resonance.
+/// Returns a JSON schema that accepts a single value of a parameter, or a table with a value and its standard
+/// error. For the drive frequency, the schema also accepts the word "resonance".
 fn single(model: &'static dyn Simulator, parameter: &Parameter) -> Value {
     let value = reference(model.name(), parameter, "value");
     let uncertain = reference(model.name(), parameter, "uncertain");
@@ -278,7 +283,7 @@ fn single(model: &'static dyn Simulator, parameter: &Parameter) -> Value {
     json!({"anyOf": [{}, alone, uncertain], "if": {"type": "object"}, "then": uncertain, "else": alone})
 }
 
-/// Returns the schema of correlations, each between two parameters.
+/// Returns the JSON schema of the list of correlations, each of which is between two parameters.
 fn correlation(parameters: &[Parameter]) -> Value {
     let name = json!({"enum": names(parameters, |kind| !matches!(kind, Kind::Choice(_)))});
     let keys = sections::properties(CORRELATION_KEYS, |key| match key {
@@ -297,7 +302,7 @@ fn correlation(parameters: &[Parameter]) -> Value {
     json!({"description": about("correlation"), "type": "array", "items": pair})
 }
 
-/// Returns the names of parameters of the wanted kinds.
+/// Returns the names of the parameters for whose kind `is_wanted` returns true.
 fn names<'p>(parameters: &[Parameter<'p>], is_wanted: impl Fn(Kind<'p>) -> bool) -> Vec<&'p str> {
     parameters.iter().filter(|parameter| is_wanted(parameter.kind)).map(|parameter| parameter.name).collect()
 }
@@ -360,12 +365,14 @@ fn output(column: &Value) -> Value {
     sections::table(about("output"), keys)
 }
 
-/// Returns a schema that accepts known names and any other name, because the user may define other names.
+/// Returns a JSON schema that accepts any name, because users can define their own measures. The schema
+/// contains the `known` names so that editors offer these names.
 fn or_own(known: &Value) -> Value {
     json!({"anyOf": [known, {"type": "string"}]})
 }
 
-/// Returns the schema of the name of a measure, or of a column about the run.
+/// Returns a JSON schema that accepts the names of the given columns: measures, and columns about the run
+/// such as `cycles`.
 fn one_of(measures: &[Column], run: &[Fixed]) -> Value {
     let measures = measures.iter().map(|column| (column.name.as_str(), column.doc.as_str()));
     let run = run.iter().map(|column| (column.name, column.doc));

@@ -1,4 +1,5 @@
-//! Schemas of sections that are equal for all models, and small schemas for use in larger schemas.
+//! JSON schemas of the sections of a grid file that are the same for all models, and small schemas for use in
+//! larger schemas.
 
 use flap_core::simulate::{SettingKind, Simulator, SolverSettings};
 use flap_core::vehicle::MOST_WINGS;
@@ -10,12 +11,12 @@ use crate::grid::{refine, resonance};
 use crate::plan::refine::Refine;
 use crate::resonance::{Objective, Range};
 
-/// Returns a JSON reference to a definition of the schema.
+/// Returns a JSON reference to the schema with the name `definition`.
 pub(super) fn to(definition: &str) -> Value {
     json!({"$ref": format!("#/$defs/{definition}")})
 }
 
-/// Returns a schema for each of the keys.
+/// Returns an object that contains, for each key, the result of the function `schema`.
 pub(super) fn properties<'k>(
     keys: impl IntoIterator<Item = &'k str>,
     schema: impl Fn(&str) -> Value,
@@ -23,7 +24,7 @@ pub(super) fn properties<'k>(
     keys.into_iter().map(|key| (key.to_owned(), schema(key))).collect()
 }
 
-/// Returns the schema of a table with the given keys and no other keys.
+/// Returns the JSON schema of a table with the given keys and no other keys.
 pub(super) fn table(description: &str, properties: Map<String, Value>) -> Value {
     json!({
         "description": description,
@@ -33,37 +34,39 @@ pub(super) fn table(description: &str, properties: Map<String, Value>) -> Value 
     })
 }
 
-/// Returns the schema of a text that must be one of the given options.
+/// Returns the JSON schema of a text that must be one of the given options.
 pub(super) fn choice(description: &str, options: &[&str]) -> Value {
     json!({"description": description, "enum": options})
 }
 
-/// Returns the schema of text that is not empty.
+/// Returns the JSON schema of text that is not empty.
 pub(super) fn text(description: &str) -> Value {
     json!({"description": description, "type": "string", "minLength": 1})
 }
 
-/// Returns the schema of a whole number from 1 to `most`.
+/// Returns the JSON schema of a whole number from 1 to `most`.
 pub(super) fn count(description: &str, most: u64) -> Value {
     json!({"description": description, "type": "integer", "minimum": 1, "maximum": most})
 }
 
-/// Returns the schema of a list without repetitions.
+/// Returns the JSON schema of a list that contains no item twice.
 pub(super) fn list(description: &str, items: &Value) -> Value {
     json!({"description": description, "type": "array", "items": items, "minItems": 1, "uniqueItems": true})
 }
 
-/// Returns the schema of one value, or of a list of values.
+/// Returns a JSON schema that accepts one value or a list of values. `one` and `list` are the schemas of
+/// these two forms.
 fn one_or_more(description: &str, one: &Value, list: &Value) -> Value {
     json!({"description": description, "anyOf": [one, list]})
 }
 
-/// Returns the schema of the design at the start of a grid, or of several designs.
+/// Returns the JSON schema of the key `preset` or `device`, whose value is one design or a list of designs.
 pub(super) fn designs(key: &str, one: &Value) -> Value {
     one_or_more(about(key), one, &list("Designs along an axis of the grid, all of one model.", one))
 }
 
-/// Returns the schema of a number, bare or as text. The text has a unit if `has_unit` is true.
+/// Returns the JSON schema of a number with or without quotes. If `has_unit` is true, a number in quotes has
+/// a unit.
 pub(super) fn quantity(description: &str, has_unit: bool) -> Value {
     // A number, then a unit if required. Units other than `1/m` begin with neither a digit nor a point.
     let pattern = if has_unit {
@@ -74,15 +77,15 @@ pub(super) fn quantity(description: &str, has_unit: bool) -> Value {
     json!({"description": description, "type": ["number", "string"], "pattern": pattern})
 }
 
-/// Returns the schema of a number of more than zero, with or without quotes. Quoted text has a unit if `has_unit` is
-/// true.
+/// Returns the JSON schema of a number of more than zero, with or without quotes. If `has_unit` is true, a
+/// number in quotes has a unit.
 pub(super) fn positive(description: &str, has_unit: bool) -> Value {
     let mut schema = quantity(description, has_unit);
     schema["exclusiveMinimum"] = json!(0);
     schema
 }
 
-/// Returns the description of a section.
+/// Returns the text that describes a section of grid files in the JSON schema.
 pub(super) fn about(section: &str) -> &'static str {
     match section {
         "description" => "Free text.",
@@ -116,7 +119,7 @@ pub(super) fn about(section: &str) -> &'static str {
     }
 }
 
-/// Returns the schema of presets, each with its description.
+/// Returns the JSON schema of the names of presets, each with a description.
 pub(super) fn preset(models: &[&'static dyn Simulator]) -> Value {
     let presets = models.iter().flat_map(|model| model.presets());
     let (names, docs): (Vec<&str>, Vec<&str>) = presets.map(|preset| (preset.name, preset.doc)).unzip();
@@ -213,7 +216,7 @@ pub(super) fn solver() -> Value {
     table(about("solver"), settings.collect())
 }
 
-/// Returns the text with a capital first letter.
+/// Returns the text with its first letter in upper case.
 pub(super) fn capitalized(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
@@ -252,7 +255,8 @@ pub(super) fn vehicle(models: &[&'static dyn Simulator]) -> Value {
     table
 }
 
-/// Returns the schema of a number of the whole vehicle, with or without its standard error.
+/// Returns the JSON schema of a number that describes the whole vehicle, such as its mass. The number can
+/// have a standard error.
 fn measured(about: &str, is_positive: bool) -> Value {
     let number = if is_positive { positive(about, true) } else { quantity(about, true) };
     let keys = properties(VALUE_KEYS, |key| if key == "value" { number.clone() } else { to(key) });
@@ -262,7 +266,7 @@ fn measured(about: &str, is_positive: bool) -> Value {
     json!({"description": about, "anyOf": [number, uncertain]})
 }
 
-/// Returns the schema of a wing.
+/// Returns the JSON schema of a table `[[vehicle.wings]]`, which describes one wing.
 fn wing(models: &[&'static dyn Simulator]) -> Value {
     let keys = properties(WING_KEYS, |key| match key {
         "name" => json!({
@@ -289,7 +293,7 @@ fn wing(models: &[&'static dyn Simulator]) -> Value {
     table
 }
 
-/// Returns the schema of three lengths.
+/// Returns the JSON schema of a list of three lengths.
 fn lengths(description: &str) -> Value {
     json!({
         "description": description, "type": "array", "minItems": 3, "maxItems": 3,
@@ -297,7 +301,8 @@ fn lengths(description: &str) -> Value {
     })
 }
 
-/// Returns the schema of a number, or text with a unit.
+/// Returns a JSON schema that accepts a number, text with a unit, or a table with a number and its standard
+/// error.
 fn number(description: &str) -> Value {
     json!({"description": description, "type": ["number", "string", "object"]})
 }
