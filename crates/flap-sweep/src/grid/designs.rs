@@ -27,7 +27,7 @@ pub(super) struct Designs {
 
 /// Names of the designs along an axis.
 struct Names {
-    /// Key in the grid file, which is also the name of the axis: `device` or `preset`.
+    /// The key `device` or `preset` of the grid file, which is also the name of the axis.
     key: &'static str,
     key_span: Range<usize>,
     labels: Vec<String>,

@@ -93,7 +93,7 @@ impl Diagnostic {
     }
 }
 
-/// Prints the mistake on one line: `grid.toml:3:13: message`.
+/// Prints the mistake on one line, as in `grid.toml:3:13: message`.
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}:{}: {}", self.source.name, self.line(), self.column(), self.message)

@@ -58,7 +58,7 @@ impl<'l> Lookup<'l> {
         }
     }
 
-    /// Reports a mistake, as [`Problems::report`] does.
+    /// Adds a mistake at the position `span` of the file, as [`Problems::report`] does.
     pub(super) fn report(&mut self, span: Range<usize>, message: impl Into<String>) -> &mut Diagnostic {
         self.problems.report(span, message)
     }

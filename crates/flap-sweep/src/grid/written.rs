@@ -173,7 +173,8 @@ pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
     page
 }
 
-/// Rounds a number to ten digits. Values that are computed from an outline have at most ten accurate digits.
+/// Rounds a number to ten digits. Values that are computed from a wing outline have at most ten accurate
+/// digits.
 fn rounded(value: f64) -> f64 {
     format!("{value:.9e}").parse().unwrap_or(value)
 }

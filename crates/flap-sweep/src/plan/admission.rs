@@ -1,4 +1,4 @@
-//! Decision about running a point.
+//! Decides if a point is run.
 
 use flap_core::parameter::{Invalid, Kind, Parameter, Range};
 
@@ -6,19 +6,19 @@ use super::Plan;
 use super::axes::Values;
 use crate::notation::text;
 
-/// Decision about running a point.
+/// Decision if a point is run, with the reason if the point is not run.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Admission {
     /// The point is run.
     Runs,
-    /// The point does not satisfy the conditions with the contained indices. The point has no row.
+    /// The point is not run and has no row, because it does not satisfy the conditions with these indices.
     Excluded(Vec<usize>),
     /// The point cannot be run. The row of the point contains the reason.
     Invalid(Invalid),
 }
 
 impl Plan {
-    /// Returns the decision whether the point with the given values is run.
+    /// Decides if the point with the given values is run.
     pub fn judge(&self, values: &[f64]) -> Admission {
         let held: Vec<Option<bool>> =
             self.conditions().iter().map(|condition| condition.holds(values)).collect();
@@ -39,14 +39,15 @@ impl Plan {
         }
     }
 
-    /// Computes the derived parameters from the other `values` of a point, except parameters in `fixed`. Returns the
-    /// reason if the point cannot be run.
+    /// Computes the derived parameters of a point from its other parameters. Derived parameters in `fixed`
+    /// keep their values. If the point cannot be run, returns the reason.
     pub fn update(&self, values: &mut [f64], fixed: &[usize]) -> Option<Invalid> {
         self.derived().fill(values, fixed);
         self.invalid(values)
     }
 
-    /// Returns the reason why a point with these values cannot be run. Conditions exclude no point.
+    /// If a point with these values cannot be run, returns the reason. A condition that is not satisfied does
+    /// not count as a reason.
     pub fn invalid(&self, values: &[f64]) -> Option<Invalid> {
         match self.judge(values) {
             Admission::Runs => None,
@@ -55,13 +56,15 @@ impl Plan {
         }
     }
 
-    /// Returns the error of the first sampled or derived value, or value of a program, that is not allowed.
+    /// Checks the values that are sampled, derived or set by a program. Returns the error of the first value
+    /// that is not allowed.
     fn not_allowed(&self, values: &[f64]) -> Option<Invalid> {
         computed(self).find_map(|parameter| not_allowed(&self.parameters()[parameter], values[parameter]))
     }
 }
 
-/// Returns the parameters with unchecked values: sampled and derived parameters, and parameters set by a program.
+/// Returns the parameters whose values were not checked when the grid file was read: sampled and derived
+/// parameters, and parameters that a program sets.
 fn computed(plan: &Plan) -> impl Iterator<Item = usize> + '_ {
     let unchecked = plan.axes().parameters().filter(|(_, values)| {
         matches!(values, Values::Sampled { .. } | Values::Correlated { .. } | Values::Unchecked(_))
@@ -69,7 +72,7 @@ fn computed(plan: &Plan) -> impl Iterator<Item = usize> + '_ {
     unchecked.map(|(parameter, _)| *parameter).chain(plan.derived().parameters())
 }
 
-/// Returns the error of a computed value, if the value is not allowed.
+/// If a computed value is not allowed for a parameter, returns the error.
 pub(crate) fn not_allowed(parameter: &Parameter, value: f64) -> Option<Invalid> {
     let Parameter { name, unit, .. } = parameter;
     if range(parameter).contains(value) {
@@ -83,7 +86,7 @@ pub(crate) fn not_allowed(parameter: &Parameter, value: f64) -> Option<Invalid> 
     Some(Invalid::new(format!("`{name}` is computed as {}, but must be {allowed}", value.trim_end())))
 }
 
-/// Returns the numbers that a parameter accepts.
+/// Returns the range of the numbers that a parameter accepts.
 fn range(parameter: &Parameter) -> Range {
     match parameter.kind {
         Kind::Number(range) | Kind::Following(range, _) => range,

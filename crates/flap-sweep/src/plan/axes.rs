@@ -1,7 +1,7 @@
-//! Axes: the values of one varied parameter, or of several parameters that vary together. The module also contains the
-//! followed parameter of a response.
+//! The axes of a plan. An axis contains the values of one varied parameter, or of several parameters that
+//! vary together. The module also contains the parameter that rises and falls in a response.
 //!
-//! Values are computed on demand, so an axis of 10^9 values takes no memory.
+//! Each value is computed when it is needed, so a range of 10^9 values takes no memory.
 
 use std::sync::Arc;
 
@@ -10,56 +10,56 @@ use super::sample::{Distribution, SamplePoints, normal_quantile};
 /// Values of one parameter along an axis, in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Values {
-    /// Listed values.
+    /// Values from a list.
     List(Vec<f64>),
-    /// Listed and unchecked values from a program. Some of these values may be out of range.
+    /// Values from a list that a program provides. These values are not checked, and may be out of range.
     Unchecked(Vec<f64>),
     /// `count` equidistant values from `from` to `to`, both included.
     Linear {
         /// First value.
         from: f64,
-        /// Last value, exact.
+        /// Last value, without a rounding error.
         to: f64,
         /// Number of values.
         count: u64,
     },
-    /// Equally spaced values: `from`, `from + step`, `from + 2 step`, and so on.
+    /// Equally spaced values, which are `from`, `from + step`, `from + 2 step`, and so on.
     Step {
         /// First value.
         from: f64,
-        /// Distance between values; negative for a descending axis.
+        /// Distance between neighbouring values, which is negative if the values descend.
         step: f64,
         /// Number of values.
         count: u64,
     },
-    /// `count` values from `from` to `to`, both included, with a constant ratio.
+    /// `count` values from `from` to `to`, both included, with a constant ratio between neighbouring values.
     Log {
         /// First value.
         from: f64,
-        /// Last value, exact.
+        /// Last value, without a rounding error.
         to: f64,
         /// Number of values.
         count: u64,
     },
-    /// Points of a sample along one of its dimensions.
+    /// Values of a sampled parameter.
     Sampled {
         /// Points of the sample, which are the same for all parameters of the sample.
         sample: Arc<SamplePoints>,
-        /// The dimension.
+        /// Index of the sample's dimension that gives the values of the parameter.
         dimension: usize,
-        /// Distribution that maps the coordinate to the parameter.
+        /// Distribution that turns a coordinate of the sample into a value of the parameter.
         distribution: Distribution,
     },
-    /// Points of a sample of correlated normal distributions.
+    /// Values of a sampled parameter with a normal distribution that is correlated with other parameters.
     Correlated {
         /// Points of the sample, which are the same for all parameters of the sample.
         sample: Arc<SamplePoints>,
-        /// Mean.
+        /// Mean of the distribution.
         mean: f64,
-        /// Standard deviation.
+        /// Standard deviation of the distribution.
         sd: f64,
-        /// Weights with which the independent normal numbers of the first dimensions are added. The sum of the squared
-        /// weights is 1.
+        /// Weights of the independent normal numbers whose sum gives the value. The normal numbers are from
+        /// the first dimensions of the sample, and the sum of the squared weights is 1.
         weights: Vec<f64>,
     },
 }
@@ -109,11 +109,12 @@ impl Values {
         }
     }
 
-    /// Returns the value at a position along the axis, from 0 to [`Values::len`] minus 1. At whole numbers the result
-    /// equals [`Values::get`].
+    /// Returns the value at a position along the axis, from 0 to [`Values::len`] minus 1. If the position is
+    /// a whole number, the result equals [`Values::get`].
     ///
-    /// Between two values of the axis, the function interpolates with the spacing of the axis. Between points of a
-    /// sample there are no values: the function returns the earlier value.
+    /// Between two values of the axis, the function interpolates with the linear or logarithmic spacing of
+    /// the axis. Values from a sample or a program are not interpolated: the function returns the value
+    /// before the position.
     pub(crate) fn at(&self, position: f64) -> f64 {
         #[expect(
             clippy::cast_possible_truncation,
@@ -142,7 +143,8 @@ impl Values {
 
 /// Returns `x` rounded to 15 significant digits. For example, 60e-6 + 10e-6 gives 70e-6 and not 7.000000000000001e-5.
 ///
-/// Next to `from`, the first summand of `x`, a rounding error is returned as zero.
+/// `from` is the first summand of `x`. If `x` is only a rounding error compared with `from`, the function
+/// returns zero.
 fn decimal(x: f64, from: f64) -> f64 {
     if x.abs() < 1e-14 * from.abs() {
         return 0.0;
@@ -150,19 +152,21 @@ fn decimal(x: f64, from: f64) -> f64 {
     format!("{x:.14e}").parse().unwrap_or(x)
 }
 
-/// One axis: one parameter, or several parameters that vary together.
+/// An axis, along which one parameter varies, or several parameters vary together.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
     pub(super) parameters: Vec<(usize, Values)>,
 }
 
 impl Axis {
-    /// Returns the axis of these parameters: indices into the model's parameter table, each with its values.
+    /// Returns an axis along which the given parameters vary. A parameter is an index into the model's
+    /// parameter table, with the values of the parameter.
     pub fn new(parameters: Vec<(usize, Values)>) -> Axis {
         Axis { parameters }
     }
 
-    /// Returns the indices into the model's parameter table, each with its values.
+    /// Returns the parameters that vary along the axis, as indices into the model's parameter table, each
+    /// with its values.
     pub fn parameters(&self) -> &[(usize, Values)] {
         &self.parameters
     }
@@ -178,14 +182,14 @@ impl Axis {
     }
 }
 
-/// Axes of a design space. The last axis varies fastest.
+/// The axes of a plan. From point to point, the last axis varies fastest.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axes {
     axes: Vec<Axis>,
     points: u64,
 }
 
-/// Error of axes with more than [`Axes::MAX_POINTS`] points in total.
+/// Error if axes have more than [`Axes::MAX_POINTS`] points in total.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the axes have more than 2^63 points in total")]
 pub struct TooManyPoints {
@@ -199,10 +203,10 @@ impl Axes {
     /// Largest number of points: 2^63.
     pub const MAX_POINTS: u64 = 1 << 63;
 
-    /// Returns the product of `axes`.
+    /// Combines `axes`: the points are all combinations of the values of the axes.
     ///
     /// # Errors
-    /// [`TooManyPoints`] if the product has more than [`Axes::MAX_POINTS`] points.
+    /// [`TooManyPoints`] if there are more than [`Axes::MAX_POINTS`] points.
     pub fn new(axes: Vec<Axis>) -> Result<Axes, TooManyPoints> {
         // An axis without positions counts as one, so that the others are still checked against the limit.
         let mut product = 1_u64;
@@ -219,22 +223,22 @@ impl Axes {
         Ok(Axes { axes, points })
     }
 
-    /// No axes. The product of no axes is one point.
+    /// Returns an empty list of axes, which has one point.
     pub(crate) fn none() -> Axes {
         Axes { axes: Vec::new(), points: 1 }
     }
 
-    /// Returns the axes with `axis` before all other axes.
+    /// Adds `axis` before all other axes.
     ///
     /// # Errors
-    /// [`TooManyPoints`] if the product has more than [`Axes::MAX_POINTS`] points.
+    /// [`TooManyPoints`] if there are more than [`Axes::MAX_POINTS`] points.
     pub fn crossed_with(mut self, axis: Axis) -> Result<Axes, TooManyPoints> {
         self.axes.insert(0, axis);
         Axes::new(self.axes)
     }
 
-    /// Returns the axes without the axis that varies `parameter` alone, and the values of this axis; `None` if there
-    /// is no such axis.
+    /// Removes the axis that varies only `parameter`. Returns the remaining axes, and the values of the
+    /// removed axis if there was such an axis.
     pub(crate) fn without(mut self, parameter: usize) -> (Axes, Option<Values>) {
         let alone = |axis: &Axis| matches!(axis.parameters(), [(varied, _)] if *varied == parameter);
         let Some(place) = self.axes.iter().position(alone) else { return (self, None) };
@@ -278,8 +282,8 @@ impl Axes {
         }
     }
 
-    /// Writes the values at these positions into `values`: one position for each axis, from 0 to the length of the axis
-    /// minus 1.
+    /// Writes the parameter values at the given positions into `values`. There is one position for each axis,
+    /// from 0 to the length of the axis minus 1.
     pub(crate) fn fill_between(&self, positions: &[f64], values: &mut [f64]) {
         for (axis, position) in self.axes.iter().zip(positions) {
             for (parameter, along) in axis.parameters() {
@@ -288,23 +292,23 @@ impl Axes {
         }
     }
 
-    /// Returns true if there are points at these positions: one for each axis, from 0 to the length of the axis minus
-    /// 1.
+    /// Returns true if there is one position for each axis, and each position is from 0 to the length of the
+    /// axis minus 1.
     pub(crate) fn contain(&self, positions: &[f64]) -> bool {
         let within = |(axis, position): (&Axis, &f64)| (0.0..=(axis.len() as f64 - 1.0)).contains(position);
         positions.len() == self.axes.len() && self.axes.iter().zip(positions).all(within)
     }
 }
 
-/// Parameter that rises and falls in a response.
+/// The parameter that rises and falls in a response.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Along {
-    /// Index in the model's parameter table.
+    /// Index of the parameter in the model's parameter table.
     pub parameter: usize,
-    /// Values in ascending order; at least two values.
+    /// At least two values of the parameter, in ascending order.
     pub values: Vec<f64>,
-    /// Largest error of the ends of bistable bands, more than zero.
+    /// Largest allowed error of the ends of bistable bands, which must be more than zero.
     pub tolerance: f64,
-    /// True if unstable orbits of bistable bands are computed.
+    /// True if the unstable orbits in bistable bands are computed.
     pub unstable: bool,
 }

@@ -1,4 +1,4 @@
-//! Changes of a plan that keep the plan valid.
+//! Methods that change a plan and keep the plan valid.
 
 use std::sync::Arc;
 
@@ -19,16 +19,16 @@ use crate::notation::value::{self, ValueError};
 /// Error of a change that would make a plan invalid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ChangeError {
-    /// An axis varies the parameter.
+    /// The parameter cannot be set or varied, because an axis already varies the parameter.
     #[error("an axis varies `{0}`")]
     Varied(String),
-    /// The parameter is computed from other parameters.
+    /// The parameter cannot be set or varied, because a formula computes its value.
     #[error("`{0}` is derived from other parameters")]
     Derived(String),
-    /// The drive frequency is the resonance of each design.
+    /// The drive frequency cannot be set or varied, because it is the resonance of each design.
     #[error("`{0}` is set to the resonance of each design")]
     Resonance(String),
-    /// The parameter is an input of hover.
+    /// The parameter cannot be varied, because the search for hover changes its value.
     #[error("the search for hover changes `{0}`")]
     Input(String),
     /// The parameter does not accept the value.
@@ -39,7 +39,7 @@ pub enum ChangeError {
         /// Mistake in the value.
         error: Box<ValueError>,
     },
-    /// The parameters in the list have no value.
+    /// The listed parameters have no value.
     #[error("these parameters have no value: {}", .0.join(", "))]
     Missing(Vec<String>),
     /// The plan would have more than [`Axes::MAX_POINTS`](super::axes::Axes::MAX_POINTS) points.
@@ -48,7 +48,7 @@ pub enum ChangeError {
     /// The plan has no point with this index, or the indices are not in ascending order.
     #[error("point {0} is not in the grid, or not in ascending order")]
     NoPoint(u64),
-    /// Rows have no such measure, or the measure is listed twice.
+    /// Rows have no measure with this name, or the name is listed twice.
     #[error("there is no measure `{0}`, or it is listed twice")]
     NoColumn(String),
     /// Rows have no derivatives with respect to this parameter.
@@ -63,19 +63,20 @@ pub enum ChangeError {
     /// Rows at hover, and rows with the damping matrix, have no initial states.
     #[error("rows at hover, and rows with the damping matrix, have no states")]
     OfBody,
-    /// The model computes only rows; the error contains the reason.
+    /// The model does not compute motions, so rows have neither derivatives nor initial states. The error
+    /// contains the reason.
     #[error("{0}")]
     NoMotions(String),
-    /// The number of states differs from the number of points.
+    /// The number of initial states differs from the number of points.
     #[error("{0} states for {1} points")]
     States(usize, u64),
-    /// The solver does not accept these settings.
+    /// A setting of the solver is out of its range. The error contains the name of the setting.
     #[error("`{0}` is out of its range")]
     Solver(&'static str),
 }
 
-/// Returns the settings with another relative tolerance. `atol` and `accuracy` keep their values, unless they have the
-/// values that follow the earlier relative tolerance.
+/// Returns the solver settings with the relative tolerance `rtol`. If `atol` or `accuracy` has its default
+/// for the earlier relative tolerance, it gets its default for the new relative tolerance.
 pub fn with_rtol(settings: SolverSettings, rtol: f64) -> SolverSettings {
     let (usual, next) = (settings.with_rtol(settings.rtol), settings.with_rtol(rtol));
     let follow = |given: f64, usual: f64, next: f64| if given == usual { next } else { given };
@@ -109,8 +110,8 @@ impl Plan {
     /// has no standard error.
     ///
     /// # Errors
-    /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if the value comes from an
-    ///   axis, a formula or the resonance.
+    /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if an axis, a
+    ///   formula or the resonance determines the value.
     /// - [`ChangeError::Value`] if the parameter does not accept the value.
     pub fn with_parameter(mut self, parameter: usize, value: f64) -> Result<Plan, ChangeError> {
         self.check_free(parameter)?;
@@ -143,15 +144,16 @@ impl Plan {
         Ok(self)
     }
 
-    /// Returns the plan whose rows contain derivatives of their measures with respect to these parameters, per SI
-    /// unit.
+    /// Returns the plan whose rows contain derivatives of measures with respect to the parameters `by`, per
+    /// SI unit of the parameter.
     ///
-    /// The measures are the columns of [`Plan::with_columns`], or all measures that are numbers.
+    /// The derivatives are for the measures that [`Plan::with_columns`] selected. Without a selection, the
+    /// derivatives are for all measures that are numbers.
     ///
     /// # Errors
     /// - [`ChangeError::NoDerivative`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives.
     /// - [`ChangeError::AtResonance`] if rows are at the resonance of each design.
-    /// - [`ChangeError::NoMotions`] if the model computes only rows.
+    /// - [`ChangeError::NoMotions`] if the model does not compute motions.
     pub fn with_slopes(mut self, by: Vec<usize>) -> Result<Plan, ChangeError> {
         self.states_of_motions()?;
         for &parameter in &by {
@@ -179,14 +181,14 @@ impl Plan {
         Ok(self)
     }
 
-    /// Returns the plan whose motions begin at these states, one per point; `None` for rest. The new plan runs all its
-    /// points.
+    /// Returns the plan whose motions begin at the given states. `states` contains one state for each point,
+    /// or `None` for a motion that begins at rest. The new plan runs all its points.
     ///
     /// # Errors
     /// - [`ChangeError::States`] if the number of states differs from the number of points.
     /// - [`ChangeError::AtResonance`] or [`ChangeError::OfBody`] if rows are at the resonance, at hover, or have the
     ///   damping matrix.
-    /// - [`ChangeError::NoMotions`] if the model computes only rows.
+    /// - [`ChangeError::NoMotions`] if the model does not compute motions.
     pub fn with_initial_states(mut self, states: Vec<Option<Vec<f64>>>) -> Result<Plan, ChangeError> {
         self.check_motions()?;
         if states.len() as u64 != self.len() {
@@ -197,28 +199,29 @@ impl Plan {
         Ok(self.without_refinement())
     }
 
-    /// Returns the plan whose rows contain the state at the beginning of a drive period, at which other motions can
-    /// begin.
+    /// Returns the plan whose rows also contain the state of the motion at the beginning of a drive period.
+    /// Motions of other plans can begin at this state.
     ///
     /// # Errors
-    /// [`ChangeError::AtResonance`], [`ChangeError::OfBody`], [`ChangeError::NoMotions`].
+    /// [`ChangeError::AtResonance`], [`ChangeError::OfBody`] or [`ChangeError::NoMotions`] if rows cannot
+    /// contain states.
     pub fn with_states(mut self) -> Result<Plan, ChangeError> {
         self.states = self.check_motions()?;
         Ok(self)
     }
 
-    /// Returns the names of the measured columns: the columns of the model, then the measures of the plan.
+    /// Returns the names of all measures: first the columns of the model, then the measures of the plan.
     pub fn measured(&self) -> impl Iterator<Item = &str> + '_ {
         let of_model = self.rows().columns().iter().map(|column| column.name.as_str());
         of_model.chain(self.measures().iter().map(|own| own.name.as_str()))
     }
 
-    /// Returns the plan without its preset. Parameters in `given` are set or varied later. All other parameters are
-    /// computed from parameters in `given`.
+    /// Returns the plan without its preset. Parameters in `given` are set or varied later. All other
+    /// parameters have their default values, or are computed from other parameters.
     ///
     /// # Errors
-    /// [`ChangeError::Missing`] if `given` lacks a parameter that has no default and is not computed from other
-    /// parameters.
+    /// [`ChangeError::Missing`] if a parameter is not in `given`, has no default, and is not computed from
+    /// other parameters.
     pub fn without_preset(mut self, given: &[usize]) -> Result<Plan, ChangeError> {
         let mut missing = Vec::new();
         let parameters = self.space.robot.parameters();
@@ -238,15 +241,16 @@ impl Plan {
         Ok(self)
     }
 
-    /// Returns the plan combined with an axis of values from a program. The new axis is before all other axes.
+    /// Returns the plan with an additional axis, whose values a program provides. The new axis is before all
+    /// other axes.
     ///
-    /// `parameters` contains the same number of values for each parameter. The new plan runs all its points. Values
-    /// need not be in range: a point with a value out of range has a row with the status invalid.
+    /// `parameters` contains the same number of values for each parameter. The new plan runs all its points.
+    /// If a value is out of range, the row of its point has the status `invalid`.
     ///
     /// # Errors
-    /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if a value comes from an axis,
-    ///   a formula or the resonance.
-    /// - [`ChangeError::Input`] if the search for hover changes a parameter.
+    /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if an axis, a
+    ///   formula or the resonance determines the value of a parameter.
+    /// - [`ChangeError::Input`] if the search for hover changes one of the parameters.
     /// - [`ChangeError::TooManyPoints`] if the plan would have too many points.
     pub fn crossed_with(mut self, parameters: Vec<(usize, Vec<f64>)>) -> Result<Plan, ChangeError> {
         for (place, (parameter, _)) in parameters.iter().enumerate() {
@@ -264,31 +268,33 @@ impl Plan {
         Ok(self.with_new_axes())
     }
 
-    /// Returns the plan without the axis that varies `parameter` alone, and the values of this axis; `None` if there
-    /// is no such axis.
+    /// Removes the axis that varies only `parameter`. Returns the new plan, and the values of the removed
+    /// axis if there was such an axis.
     ///
-    /// All points of the plan are run.
+    /// The new plan runs all its points.
     pub fn without_axis(mut self, parameter: usize) -> (Plan, Option<Values>) {
         let (axes, values) = self.space.axes.without(parameter);
         self.space.axes = axes;
         (self.with_new_axes(), values)
     }
 
-    /// Returns the plan whose points are designs, each with a curve of rows along which a parameter rises and falls.
+    /// Returns the plan that computes a response for each point. In a response, the parameter of `along`
+    /// first rises and then falls.
     ///
-    /// The parameter must not have an axis.
+    /// The plan must not have an axis of this parameter.
     pub fn following(mut self, along: Along) -> Plan {
         self.followed = Some(along);
         self
     }
 
-    /// Returns the plan that runs one of several equal parts.
+    /// Returns the plan that runs only the points of one shard.
     pub fn with_shard(mut self, shard: Shard) -> Plan {
         self.selection = Selection::Shard(shard);
         self
     }
 
-    /// Returns the plan that runs these points: indices of the plan, in ascending order.
+    /// Returns the plan that runs only the points in `list`. The list contains indices of points in ascending
+    /// order.
     ///
     /// # Errors
     /// [`ChangeError::NoPoint`] if an index is not less than [`Plan::len`], or not larger than the previous index.
@@ -307,7 +313,8 @@ impl Plan {
         self
     }
 
-    /// Returns the plan with the given measures added at the end. The rows of the new plan have no derivatives.
+    /// Returns the plan with additional measures after its own measures. The rows of the new plan have no
+    /// derivatives.
     pub(crate) fn with_measures(mut self, more: Vec<OwnMeasure>) -> Plan {
         self.space.measures.extend(more);
         self.space.gradient = None;
@@ -320,7 +327,8 @@ impl Plan {
         self
     }
 
-    /// The plan of one point with the given values of the varied parameters. The values need not be in range.
+    /// Returns the plan of one point with the given values of the varied parameters. The values may be out of
+    /// range.
     ///
     /// # Errors
     /// [`ChangeError::TooManyPoints`], which does not occur for one point.
@@ -331,8 +339,9 @@ impl Plan {
         Ok(self.with_new_axes())
     }
 
-    /// The plan of one point. `values` has the value of each parameter, and no parameter is varied or derived. A
-    /// parameter that is NaN is computed from other parameters. A changed value has no standard error.
+    /// Returns the plan of one point, in which no parameter is varied or derived. `values` contains the value
+    /// of each parameter. If a value is NaN, the parameter keeps its value in the plan. A changed value has
+    /// no standard error.
     #[must_use]
     pub fn of_point(mut self, values: &[f64]) -> Plan {
         for (parameter, value) in values.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
@@ -350,20 +359,21 @@ impl Plan {
         self.with_new_axes()
     }
 
-    /// Returns the plan without the search for hover: rows have the inputs of their points.
+    /// Returns the plan without the search for hover and without the damping matrix. The inputs of each row
+    /// are the values of its point.
     #[must_use]
     pub(crate) fn without_hover(mut self) -> Plan {
         self.space.body = None;
         self.with_new_axes()
     }
 
-    /// Returns the plan that runs all points of changed axes. A refinement of the plan is removed, because the
-    /// refinement refers to the earlier axes.
+    /// Returns the plan after a change of its axes: the plan runs all its points. A refinement of the plan is
+    /// removed, because the refinement refers to the earlier axes.
     fn with_new_axes(self) -> Plan {
         Plan { selection: Selection::All, ..self.without_refinement() }
     }
 
-    /// Returns the plan without its refinement: the points are the points of the axes.
+    /// Returns the plan without its refinement, and without the points that the refinement added.
     #[must_use]
     pub fn without_refinement(mut self) -> Plan {
         self.space.refine = None;
@@ -371,10 +381,11 @@ impl Plan {
         self
     }
 
-    /// Returns the plan with additional points at the end. A point is given as a position along each axis.
+    /// Returns the plan with additional points at the end. Each point is a list of positions, one along each
+    /// axis.
     ///
     /// # Errors
-    /// [`ChangeError::NoPoint`] with the index of the first point that is outside the axes.
+    /// [`ChangeError::NoPoint`] with the index of the first point that is outside the ranges of the axes.
     pub fn with_added(self, more: Vec<Vec<f64>>) -> Result<Plan, ChangeError> {
         if let Some(place) = more.iter().position(|positions| !self.axes().contain(positions)) {
             return Err(ChangeError::NoPoint(self.len() + place as u64));
@@ -388,16 +399,18 @@ impl Plan {
         self
     }
 
-    /// Returns the names of the states at which motions can begin.
+    /// Checks that motions of the plan can begin at given states, and returns the names of the state's
+    /// components.
     ///
     /// # Errors
-    /// [`ChangeError::AtResonance`], [`ChangeError::OfBody`], [`ChangeError::NoMotions`].
+    /// [`ChangeError::AtResonance`], [`ChangeError::OfBody`] or [`ChangeError::NoMotions`] if motions cannot
+    /// begin at given states.
     pub fn check_motions(&self) -> Result<Vec<String>, ChangeError> {
         let states = self.states_of_motions()?;
         if self.body().is_some() { Err(ChangeError::OfBody) } else { Ok(states) }
     }
 
-    /// Returns the names of the states of the model's motions.
+    /// Returns the names of the state's components in the motions of the model.
     fn states_of_motions(&self) -> Result<Vec<String>, ChangeError> {
         if self.resonance().is_some() {
             return Err(ChangeError::AtResonance);
@@ -406,7 +419,8 @@ impl Plan {
         gradients.map(Gradients::states).map_err(|error| ChangeError::NoMotions(error.to_string()))
     }
 
-    /// Checks that `parameter` may be set or varied.
+    /// Returns an error if `parameter` cannot be set or varied, because an axis, a formula or the resonance
+    /// determines its value.
     fn check_free(&self, parameter: usize) -> Result<(), ChangeError> {
         let name = || self.parameters()[parameter].name.to_owned();
         if self.axes().varied().any(|varied| varied == parameter) {

@@ -5,25 +5,28 @@ use crate::notation::expression::{Expression, Kind};
 /// Parameters that are computed from other parameters.
 #[derive(Clone, Debug, Default)]
 pub struct Derived {
-    /// Indices into the model's parameter table with their expressions, in the order of the file.
+    /// Derived parameters in the order of the file: the index in the model's parameter table, and the
+    /// expression.
     formulas: Vec<(usize, Expression)>,
-    /// Indices of `formulas` in an order in which each formula is after the formulas on which it depends.
+    /// Indices into `formulas`, in an order in which each formula comes after the formulas on which it
+    /// depends.
     order: Vec<usize>,
 }
 
 impl Derived {
-    /// Returns parameters with the given expressions, which are computed in the given `order`. In `order`, each
-    /// expression must be after its dependencies.
+    /// Returns derived parameters with the given expressions. `order` contains the indices of the
+    /// expressions, each after the expressions on which it depends.
     pub(crate) fn new(formulas: Vec<(usize, Expression)>, order: Vec<usize>) -> Derived {
         Derived { formulas, order }
     }
 
-    /// Returns the indices of the parameters, in the order of the file.
+    /// Returns the indices of the derived parameters, in the order of the file.
     pub fn parameters(&self) -> impl Iterator<Item = usize> + '_ {
         self.formulas.iter().map(|(parameter, _)| *parameter)
     }
 
-    /// Returns true if a parameter is computed from `other`, directly or by other formulas.
+    /// Returns true if the value of `parameter` depends on `other`, directly or through other derived
+    /// parameters.
     pub fn depends(&self, parameter: usize, other: usize) -> bool {
         let formula = self.formulas.iter().find(|(derived, _)| *derived == parameter);
         formula.is_some_and(|(_, formula)| {
@@ -31,7 +34,8 @@ impl Derived {
         })
     }
 
-    /// Computes the parameters from the other `values` of a point, except parameters in `except`.
+    /// Computes the derived parameters from the other `values` of a point. Derived parameters in `except`
+    /// keep their values.
     pub fn fill(&self, values: &mut [f64], except: &[usize]) {
         for &place in &self.order {
             let (parameter, expression) = &self.formulas[place];
@@ -42,26 +46,27 @@ impl Derived {
     }
 }
 
-/// A condition. Points that do not satisfy the condition are not run.
+/// A condition of a grid file. Points that do not satisfy the condition are not run.
 #[derive(Clone, Debug)]
 pub struct Condition {
-    /// Name in the grid file.
+    /// Name of the condition in the grid file.
     pub name: String,
     pub(crate) expression: Expression,
 }
 
 impl Condition {
-    /// Returns true if the point with these values satisfies the condition; `None` if the result is unknown.
+    /// Returns true if the point with these values satisfies the condition. If the result is unknown, returns
+    /// `None`.
     pub fn holds(&self, values: &[f64]) -> Option<bool> {
         let value = self.expression.value(values);
         (!value.is_nan()).then_some(value != 0.0)
     }
 }
 
-/// A column computed from the model's measures and the parameters.
+/// A column that the user defines by an expression of measures and parameters.
 #[derive(Clone, Debug)]
 pub struct OwnMeasure {
-    /// Name in the grid file and of the column.
+    /// Name of the measure in the grid file, which is also the name of its column.
     pub name: String,
     pub(crate) expression: Expression,
 }

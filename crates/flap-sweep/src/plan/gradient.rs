@@ -1,18 +1,18 @@
-//! Derivatives of measures, as columns of rows.
+//! Settings for columns that contain derivatives of measures.
 
 use flap_core::parameter::{Kind, Parameter, Range};
 
 use crate::derivative::Per;
 use crate::notation::text;
 
-/// Derivatives in rows: the derivatives of some measures with respect to some parameters.
+/// The derivatives that rows contain: derivatives of some measures with respect to some parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Gradient {
-    /// Indices of the measures: first the columns of the model, then the measures of the plan.
+    /// Indices of measures in the list of the model's columns, followed by the measures of the plan.
     pub of: Vec<usize>,
-    /// Indices into the model's parameter table.
+    /// Indices of parameters in the model's parameter table.
     pub with_respect_to: Vec<usize>,
-    /// Change of the parameter to which derivatives refer.
+    /// Change of the parameter for which the derivatives are given: one per cent or one SI unit.
     pub per: Per,
 }
 
@@ -27,13 +27,14 @@ impl Gradient {
         self.len() == 0
     }
 
-    /// Returns the derivatives in the order of their columns: measure and parameter.
+    /// Returns the measure and the parameter of each derivative, in the order of the columns.
     pub fn pairs(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         self.of.iter().flat_map(|&of| self.with_respect_to.iter().map(move |&by| (of, by)))
     }
 }
 
-/// Reason why rows cannot have derivatives with respect to a parameter, as the end of a sentence.
+/// Reason why rows cannot have derivatives with respect to a parameter. The message is the second part of a
+/// sentence that begins with the parameter's name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum NoDerivative {
     /// The value of the parameter is computed by formulas.
@@ -53,14 +54,14 @@ pub enum NoDerivative {
     Unset(&'static str),
 }
 
-/// Returns a sentence about the parameters from which an unset parameter is computed. Without such parameters, the
-/// sentence says that the parameter has no default.
+/// Returns text about a parameter that is not set: the parameters that determine its value, or the remark
+/// that it has no default.
 fn following(others: &str) -> String {
     text::no_default(others).unwrap_or_else(|| format!("it follows {others}"))
 }
 
 impl NoDerivative {
-    /// Returns the remedy in a grid file; empty if there is no remedy.
+    /// Returns advice for changing the grid file. If there is no advice, the text is empty.
     pub fn help(self) -> &'static str {
         match self {
             NoDerivative::Derived => {

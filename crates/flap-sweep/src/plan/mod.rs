@@ -1,13 +1,13 @@
-//! Checked design spaces: the points of a design space, and the settings for running each point.
+//! A plan contains the points of a checked grid file, and the settings for running the points.
 //!
-//! - [`Plan`]: a checked design space, and methods that change it.
+//! - [`Plan`]: the checked contents of a grid file, and methods that return a changed plan.
 //! - [`axes`]: values of varied parameters.
 //! - [`sample`]: points that are spread over a design space.
 //! - [`formula`]: derived parameters, conditions, the user's measures.
 //! - [`gradient`]: derivatives of measures.
-//! - [`refine`]: refinement of a grid.
-//! - [`uncertainty`]: standard errors of parameters.
-//! - [`selection`]: points to run.
+//! - [`refine`]: settings for the points that are added between the values of the axes.
+//! - [`uncertainty`]: standard errors of parameters, and correlations between parameters.
+//! - [`selection`]: selection of the points that are run.
 
 mod admission;
 pub mod axes;

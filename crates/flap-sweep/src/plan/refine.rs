@@ -1,35 +1,37 @@
-//! Adaptive refinement of a grid: settings of [`crate::refine`].
+//! Settings of the adaptive refinement of a grid, which [`crate::refine`] computes.
 
 use flap_core::parameter::{Kind, Parameter, Range};
 
 use super::axes::{Axis, Values};
 
-/// Refinement of a grid: after the points of the axes, points are added where interpolation between rows has a large
-/// error.
+/// Settings of a refinement, which adds points where linear interpolation between rows has a large error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refine {
-    /// Measures whose interpolation error is limited; at least one measure.
+    /// Measures whose interpolation error is limited. The list contains at least one measure.
     pub measures: Vec<Limit>,
-    /// Indices of the refined axes, in ascending order; at least one axis. Every combination of the other axes is a
-    /// separate map.
+    /// Indices of the axes along which points are added, in ascending order. For every combination of values
+    /// of the other axes, points are added separately.
     pub along: Vec<usize>,
     /// Largest number of points, including the points of the axes.
     pub max_points: u64,
-    /// Largest number of halvings of a cell of the axes along each axis.
+    /// Largest number of times that the interval between two neighbouring values of an axis is halved.
     pub halvings: u32,
 }
 
 impl Refine {
-    /// Largest accepted number of points. The number of points is limited because all points are held in memory.
+    /// Largest accepted number of points. The number of points is limited because all points are stored in
+    /// memory.
     pub const MOST_POINTS: u64 = 1_000_000;
 
-    /// Largest number of refined axes: with six axes, a box has 2^6 corners.
+    /// Largest number of axes along which points are added. With six axes, a box between points has 2^6 = 64
+    /// corners.
     pub const MOST_AXES: usize = 6;
 
-    /// Largest accepted number of halvings.
+    /// Largest allowed value of `halvings`.
     pub const MOST_HALVINGS: u32 = 20;
 
-    /// Default number of halvings: to 1/64 of a cell.
+    /// Default number of halvings. Six halvings divide the interval between two values of an axis into 64
+    /// parts.
     pub const HALVINGS: u32 = 6;
 }
 
@@ -38,20 +40,22 @@ impl Refine {
 pub struct Limit {
     /// Name of the column.
     pub column: String,
-    /// Largest error.
+    /// Largest allowed error of the interpolation.
     pub error: Error,
 }
 
-/// Largest error of an interpolated measure.
+/// Largest allowed error of an interpolated measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Error {
-    /// Fraction of the range of the measure over all rows.
+    /// The largest error is a fraction of the difference between the largest and the smallest value of the
+    /// measure in all rows.
     Share(f64),
-    /// Number in the unit of the column.
+    /// The largest error is a number in the unit of the column.
     Absolute(f64),
 }
 
-/// Returns the reason why no points can be added along an axis, in words; `None` if points can be added.
+/// Returns text with the reason why no points can be added along an axis. If points can be added, returns
+/// `None`.
 pub fn not_refined(axis: &Axis, parameters: &[Parameter<'_>]) -> Option<&'static str> {
     const ORDER: &str = "its axis needs two or more values that rise or fall";
     let [(parameter, values)] = axis.parameters() else {

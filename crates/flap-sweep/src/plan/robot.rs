@@ -1,4 +1,4 @@
-//! Simulator of a plan's points: a model or a vehicle, with one or several designs.
+//! The simulator that computes the points of a plan: a model or a vehicle, with one or several designs.
 
 use std::ops::Deref;
 use std::sync::Arc;
@@ -10,12 +10,14 @@ use self_cell::self_cell;
 
 use crate::notation::expression::of_choice;
 
-/// Simulator of a plan's points: a model of one wing or a vehicle, with one or several designs.
+/// The simulator that computes the points of a plan: a model of one wing or a vehicle, with one or several
+/// designs.
 #[derive(Clone)]
 pub struct Robot {
     wings: Wings,
-    /// Parameters of several designs. Points of several designs have one more value, the number of the design. This
-    /// value has no effect on rows, because points contain the values of their design.
+    /// Parameters of a plan with several designs, which include the index of the design as the last
+    /// parameter. The simulator ignores this index, because each point contains the parameter values of its
+    /// design.
     designs: Option<Arc<Table>>,
 }
 
@@ -23,12 +25,12 @@ pub struct Robot {
 enum Wings {
     /// A model of one wing.
     One(&'static dyn Simulator),
-    /// A vehicle with several wings of a model.
+    /// A vehicle, whose wings all have the same model.
     Vehicle(Arc<Vehicle>),
 }
 
 impl Robot {
-    /// Returns one wing of a model.
+    /// Returns a robot that is one wing of `model`.
     pub fn of_wing(model: &'static dyn Simulator) -> Robot {
         Robot { wings: Wings::One(model), designs: None }
     }
@@ -45,7 +47,7 @@ impl Robot {
         }
     }
 
-    /// Returns the vehicle, if there is one.
+    /// Returns the vehicle, if the robot is a vehicle.
     pub fn vehicle(&self) -> Option<&Arc<Vehicle>> {
         match &self.wings {
             Wings::One(_) => None,
@@ -62,12 +64,13 @@ impl Robot {
         }
     }
 
-    /// Returns true if there are several designs.
+    /// Returns true if the plan has several designs.
     pub(crate) fn has_designs(&self) -> bool {
         self.designs.is_some()
     }
 
-    /// Returns the robot with one more parameter at the end: a choice called `name` between designs with these labels.
+    /// Returns the robot with an additional last parameter: a choice called `name`, whose options are the
+    /// labels of the designs.
     pub(crate) fn with_designs(self, name: &'static str, labels: Vec<String>) -> Robot {
         let doc = if name == "preset" { PRESET_DOC } else { DEVICE_DOC };
         let labels = Labels::new(labels, |labels| labels.iter().map(String::as_str).collect());
@@ -83,7 +86,8 @@ impl Robot {
 const DEVICE_DOC: &str = "Device of the design: the name of its file, without folder and ending.";
 const PRESET_DOC: &str = "Preset of the design.";
 
-/// The simulator of the wings. Its parameters do not name the design, see [`Robot::parameters`].
+/// Dereferences to the model or vehicle. Its parameters do not include the parameter that names the design,
+/// in contrast to [`Robot::parameters`].
 impl Deref for Robot {
     type Target = dyn Simulator;
 
@@ -106,7 +110,7 @@ impl Deref for Wings {
 type Options<'a> = Vec<&'a str>;
 
 self_cell!(
-    /// Labels of designs, also as the options of a choice.
+    /// Labels of designs, and the same labels as the options of a choice.
     struct Labels {
         owner: Vec<String>,
         #[covariant]
@@ -117,7 +121,8 @@ self_cell!(
 type Parameters<'a> = Vec<Parameter<'a>>;
 
 self_cell!(
-    /// All parameters, with the wings and the labels from which they borrow.
+    /// All parameters of a robot with several designs. The parameters borrow from the wings and the labels,
+    /// which the table also contains.
     struct Table {
         owner: (Wings, Labels),
         #[covariant]
@@ -130,7 +135,8 @@ self_cell!(
 pub(crate) struct Differences {
     /// Index of the parameter that names the design.
     pub(crate) design: usize,
-    /// Parameters, each with its value in each design; NaN if the design does not set it.
+    /// Indices of parameters, each with its value in each design. If a design does not set the parameter, the
+    /// value is NaN.
     pub(crate) values: Vec<(usize, Vec<f64>)>,
 }
 
@@ -140,7 +146,8 @@ impl Differences {
         self.values.iter().find(|(differing, _)| *differing == parameter).map(|(_, values)| values.as_slice())
     }
 
-    /// Writes the values of the design that `values` names, except parameters for which `is_varied` returns true.
+    /// Writes the values of a design into `values`, which already contains the index of the design.
+    /// Parameters for which `is_varied` returns true keep their values.
     pub(super) fn fill(&self, values: &mut [f64], is_varied: impl Fn(usize) -> bool) {
         let Some(design) = values.get(self.design).copied() else { return };
         for (parameter, of_designs) in self.values.iter().filter(|(parameter, _)| !is_varied(*parameter)) {
@@ -148,7 +155,7 @@ impl Differences {
         }
     }
 
-    /// Removes a parameter that has the same value in all designs.
+    /// Removes a parameter that now has the same value in all designs.
     pub(crate) fn remove(&mut self, parameter: usize) {
         self.values.retain(|(differing, _)| *differing != parameter);
     }

@@ -1,7 +1,8 @@
 //! Samples of a design space: points that are spread over the design space at random or more evenly.
 //!
-//! [`SamplePoints`] are points in the unit cube, and a [`Distribution`] maps each coordinate to a parameter. Any
-//! point is computed in constant time and depends only on the seed and on the index of the point.
+//! [`SamplePoints`] are points in the unit cube, and a [`Distribution`] converts a coordinate to a value of a
+//! parameter. Any point is computed in constant time and depends only on the seed and on the index of the
+//! point.
 
 use rand::rngs::ChaCha8Rng;
 use rand::{Rng, SeedableRng};
@@ -18,7 +19,8 @@ mod tests;
 /// Method for spreading points over the unit cube.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
-    /// Sobol' sequence with direction numbers by Joe and Kuo, scrambled after Owen by a hash of the digits.
+    /// Sobol' sequence with the direction numbers of Joe and Kuo. A hash of the digits scrambles the points
+    /// (Owen scrambling).
     Sobol,
     /// Latin hypercube: along every dimension, each of `count` equal intervals contains one point at a random
     /// position.
@@ -35,7 +37,7 @@ pub struct SamplePoints {
     kind: Kind,
 }
 
-/// Data that each method requires, for each dimension.
+/// Data with which each method computes coordinates, one item for each dimension.
 #[derive(Clone, Debug, PartialEq)]
 enum Kind {
     Sobol(Vec<Sobol>),
@@ -50,8 +52,8 @@ impl SamplePoints {
     /// Largest number of dimensions.
     pub const MAX_DIMENSIONS: usize = sobol::DIRECTIONS.len() + 1;
 
-    /// Returns `count` points in `dimensions` dimensions; at most [`SamplePoints::MAX_POINTS`] and
-    /// [`SamplePoints::MAX_DIMENSIONS`].
+    /// Returns `count` points in `dimensions` dimensions. `count` is at most [`SamplePoints::MAX_POINTS`],
+    /// and `dimensions` is at most [`SamplePoints::MAX_DIMENSIONS`].
     pub fn new(method: Method, seed: u64, count: u64, dimensions: usize) -> SamplePoints {
         let kind = match method {
             Method::Sobol => Kind::Sobol((0..dimensions).map(|d| Sobol::new(d, key(seed, d))).collect()),
@@ -64,7 +66,7 @@ impl SamplePoints {
         SamplePoints { seed, count, kind }
     }
 
-    /// Returns the method.
+    /// Returns the method that spreads the points.
     pub fn method(&self) -> Method {
         match self.kind {
             Kind::Sobol(_) => Method::Sobol,
@@ -83,7 +85,7 @@ impl SamplePoints {
         self.count
     }
 
-    /// Returns the coordinate of a point along a dimension: more than 0 and less than 1.
+    /// Returns the coordinate of a point along a dimension, which is more than 0 and less than 1.
     pub fn coordinate(&self, index: u64, dimension: usize) -> f64 {
         match &self.kind {
             Kind::Sobol(dimensions) => dimensions[dimension].coordinate(index),
@@ -107,7 +109,7 @@ pub(crate) fn coordinate(seed: u64, dimension: usize, index: u64) -> f64 {
     ((generator.next_u64() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
 }
 
-/// Returns a random key for a dimension.
+/// Returns a random number for a dimension, which is the key for scrambling or permuting the points.
 pub(super) fn key(seed: u64, dimension: usize) -> u64 {
     stream(seed, dimension, true).next_u64()
 }
@@ -118,14 +120,15 @@ fn stream(seed: u64, dimension: usize, is_key: bool) -> ChaCha8Rng {
     generator
 }
 
-/// Number of rounds of the cipher. With a random key, four rounds give results like random permutations; two further
-/// rounds take negligible time.
+/// Number of rounds of the Feistel cipher. With a random key, four rounds give results like random
+/// permutations, and two further rounds take negligible time.
 const ROUNDS: u64 = 6;
 
-/// A random permutation of the numbers below `count`, which is not stored.
+/// A random permutation of the numbers from 0 to `count - 1`. The permutation is computed when it is needed,
+/// and not stored.
 ///
-/// A Feistel cipher permutes the numbers with an even number of bits, enough for `count`. Numbers that are not below
-/// `count` are encrypted again. A few such repetitions give a number below `count`.
+/// A Feistel cipher permutes the numbers below a power of four, which is at least `count`. If the result is
+/// not below `count`, the cipher is applied again. After a few repetitions, the result is below `count`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Permutation {
     count: u64,
@@ -134,7 +137,7 @@ pub(super) struct Permutation {
 }
 
 impl Permutation {
-    /// Returns the permutation of `count` numbers for a key.
+    /// Returns the permutation of the numbers below `count` that `key` determines.
     pub(super) fn new(count: u64, key: u64) -> Permutation {
         let bits = u64::BITS - count.saturating_sub(1).leading_zeros();
         Permutation { count, half_bits: bits.div_ceil(2).max(1), key }

@@ -5,15 +5,16 @@ use std::str::FromStr;
 
 use xxhash_rust::xxh3::Xxh3Default;
 
-/// The points that are run, in the order of the plan. The rows of a selection keep the indices of the whole plan.
+/// Selection of the points of a plan that are run. Rows contain the indices that the points have in the whole
+/// plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Selection {
     /// All points.
     #[default]
     All,
-    /// The points of one machine.
+    /// The points of one shard, which one machine runs.
     Shard(Shard),
-    /// Listed points, in ascending order.
+    /// Points whose indices are in a list, in ascending order.
     Listed(Vec<u64>),
 }
 
@@ -27,8 +28,8 @@ impl Selection {
         }
     }
 
-    /// Returns the index in the plan of the selected point number `position`, which must be less than
-    /// [`Selection::len`].
+    /// Returns the index that the selected point number `position` has in the plan. `position` must be less
+    /// than [`Selection::len`].
     pub fn index(&self, position: u64) -> u64 {
         match self {
             Selection::All => position,
@@ -37,7 +38,7 @@ impl Selection {
         }
     }
 
-    /// Returns the position among the selected points of the point with this index, which must be selected.
+    /// Returns the position of point number `index` among the selected points. The point must be selected.
     pub fn position(&self, index: u64) -> u64 {
         match self {
             Selection::All => index,
@@ -66,7 +67,7 @@ impl fmt::Display for Selection {
 
 /// One of several equal parts of a plan: the points whose index modulo `of` equals `number - 1`.
 ///
-/// Neighbouring points take similar time, so the shards of a plan also take similar time.
+/// Neighbouring points of a plan take similar time, so all shards of the plan take similar time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shard {
     number: u64,
@@ -82,12 +83,12 @@ impl Shard {
         self.number
     }
 
-    /// Returns the number of shards.
+    /// Returns the number of shards of the plan.
     pub fn of(self) -> u64 {
         self.of
     }
 
-    /// Returns true if the shard contains the point.
+    /// Returns true if the shard contains point number `index`.
     pub fn contains(self, index: u64) -> bool {
         index % self.of == self.number - 1
     }
@@ -102,7 +103,7 @@ impl fmt::Display for Shard {
 impl FromStr for Shard {
     type Err = String;
 
-    /// Parses `2/3`.
+    /// Parses text such as `2/3`, which means the second of three shards.
     fn from_str(text: &str) -> Result<Shard, String> {
         let numbers = text.split_once('/').and_then(|(number, of)| number.parse().ok().zip(of.parse().ok()));
         match numbers {
@@ -114,7 +115,7 @@ impl FromStr for Shard {
     }
 }
 
-/// Returns an ascending list of indices as text, with ranges for consecutive indices: `3,17,20-31`.
+/// Converts an ascending list of indices to text, with ranges for consecutive indices, such as `3,17,20-31`.
 pub fn list_text(list: &[u64]) -> String {
     let runs = list.chunk_by(|a, b| a + 1 == *b);
     let run = |run: &[u64]| match run {
@@ -124,11 +125,12 @@ pub fn list_text(list: &[u64]) -> String {
     runs.map(run).collect::<Vec<_>>().join(",")
 }
 
-/// Largest number of listed points, which are stored in memory.
+/// Largest number of points in a list of points. The number is limited because the list is stored in memory.
 pub const MOST_LISTED: u64 = 10_000_000;
 
-/// Returns the list in a text of [`list_text`], of at most [`MOST_LISTED`] indices below `points`; `None` for any
-/// other text.
+/// Converts text in the form of [`list_text`] to a list of indices. Returns `None` if the text has another
+/// form, or if an index is not below `points`. Also returns `None` if there are more than [`MOST_LISTED`]
+/// indices.
 pub fn read_list(text: &str, points: u64) -> Option<Vec<u64>> {
     let mut list: Vec<u64> = Vec::new();
     for run in text.split(',').filter(|run| !run.is_empty()) {

@@ -1,4 +1,5 @@
-//! A checked design space: the model or vehicle of its points, and its input and output files.
+//! A plan is the checked contents of a grid file: the points, their model or vehicle, and the input and
+//! output files.
 //!
 //! The points of the axes are not stored: [`Plan::point`] computes any point in constant time. Only points that a
 //! refinement adds are stored.
@@ -24,46 +25,49 @@ use crate::vehicle::BodyRows;
 
 /// A checked design space, and the settings for running its points.
 ///
-/// [`crate::grid`] makes plans from grid files. Methods that change a plan keep the plan valid: values are in range,
-/// and each parameter is set, varied or derived in one place. The selected points of a plan are points of the plan,
-/// with valid indices.
+/// [`crate::grid`] makes plans from grid files. Methods that change a plan keep the plan valid: values are in
+/// range, and each parameter is set, varied or derived in one place. The selection of a plan contains only
+/// indices of existing points.
 #[derive(Clone)]
 pub struct Plan {
     pub(super) space: Space,
     pub(super) selection: Selection,
     pub(super) followed: Option<Along>,
-    /// The initial state of each point; `None` for a motion from rest. The list is empty if all motions begin at rest.
+    /// The initial state of each point, or `None` for a motion that begins at rest. If all motions begin at
+    /// rest, the list is empty.
     pub(super) initial_states: Vec<Option<Vec<f64>>>,
-    /// Names of the state's components in rows; empty if rows contain no state.
+    /// Names of the state's components that rows contain. If rows contain no state, the list is empty.
     pub(super) states: Vec<String>,
-    /// Points that a refinement has added after the points of the axes. A point is given as a position along each axis.
+    /// Points that a refinement has added after the points of the axes. Each point is a list of positions,
+    /// one along each axis.
     pub(super) added: Arc<Vec<Vec<f64>>>,
 }
 
 /// Contents of a checked grid file.
 #[derive(Clone)]
 pub(crate) struct Space {
-    /// Simulator of the points.
+    /// The simulator that computes the points.
     pub(crate) robot: Robot,
-    /// Search for resonances, if each design is run at its own resonance.
+    /// Source of rows at the resonance, if each design is run at its own resonance.
     pub(crate) resonance: Option<AtResonance>,
-    /// Rows at hover or with the damping matrix, if the vehicle has such rows.
+    /// Source of rows at hover or with the damping matrix, if the grid file requests such rows.
     pub(crate) body: Option<BodyRows>,
     /// Name of the preset.
     pub(crate) preset: &'static str,
-    /// Value of each parameter: the value of the preset or the device, or of `[params]`.
+    /// Value that each parameter has before the axes change it, from the preset, the device or `[params]`.
     pub(crate) base: Vec<Value>,
     /// Parameters whose values have units in the file, in `[params]` or along an axis.
     pub(crate) with_units: WithUnits,
-    /// Standard errors of the values, and correlations of the standard errors.
+    /// Standard errors of the parameters, and correlations between the parameters.
     pub(crate) uncertainty: Uncertainty,
-    /// Devices of the grid: first the device of the grid, then the devices on which this device is based.
+    /// Devices of the grid: first the device that the grid file names, then the devices on which this device
+    /// is based.
     pub(crate) devices: Vec<Source>,
-    /// Values in which the designs of the plan differ, if it has several.
+    /// Parameter values in which the designs of the plan differ, if the plan has several designs.
     pub(crate) differences: Differences,
-    /// Varied parameters.
+    /// Axes, which contain the varied parameters and their values.
     pub(crate) axes: Axes,
-    /// Refinement of the grid of the axes, if the grid is refined.
+    /// Settings of the refinement, if the grid file requests a refinement.
     pub(crate) refine: Option<Refine>,
     /// File that lists the points of the sample, if there is such a file.
     pub(crate) points_file: Option<PointsFile>,
@@ -71,17 +75,18 @@ pub(crate) struct Space {
     pub(crate) derived: Derived,
     /// Conditions. Points that do not satisfy all conditions are not run.
     pub(crate) conditions: Vec<Condition>,
-    /// Columns that are computed from the model's measures. A column may use the columns before it.
+    /// Columns that the user defines by expressions. An expression can contain the model's measures and
+    /// earlier columns of the user.
     pub(crate) measures: Vec<OwnMeasure>,
-    /// Derivatives in rows.
+    /// The derivatives that rows contain, if there are any.
     pub(crate) gradient: Option<Gradient>,
     /// Tolerances and limits of the integration.
     pub(crate) solver: SolverSettings,
-    /// File for rows, and the columns of this file.
+    /// Path and columns of the results file.
     pub(crate) output: Output,
     /// Parameters of all wings that the grid sets or varies, although each wing has its own value.
     pub(crate) unreached: Vec<&'static Parameter<'static>>,
-    /// Grid file, for the record of the origin of the rows.
+    /// Name and text of the grid file, which are recorded with the results.
     pub(crate) source: Source,
 }
 
@@ -98,13 +103,13 @@ impl Plan {
         }
     }
 
-    /// Returns the simulator of the points: a model or a vehicle.
+    /// Returns the simulator that computes the points: a model or a vehicle.
     pub fn robot(&self) -> &Robot {
         &self.space.robot
     }
 
-    /// Returns the model, or the vehicle if the points are vehicles. Its parameters do not name the design, see
-    /// [`Plan::parameters`].
+    /// Returns the model, or the vehicle if the points are vehicles. In contrast to [`Plan::parameters`], its
+    /// parameters do not include the parameter that names the design.
     pub fn simulator(&self) -> &dyn Simulator {
         &**self.robot()
     }
@@ -120,17 +125,18 @@ impl Plan {
         self.robot().parameters()
     }
 
-    /// Returns the search for resonances, if each design is run at its own resonance.
+    /// Returns the source of rows at the resonance, if each design is run at its own resonance.
     pub fn resonance(&self) -> Option<&AtResonance> {
         self.space.resonance.as_ref()
     }
 
-    /// Returns the source of rows at hover or with the damping matrix, if the vehicle has such rows.
+    /// Returns the source of rows at hover or with the damping matrix, if the plan has such rows.
     pub fn body(&self) -> Option<&BodyRows> {
         self.space.body.as_ref()
     }
 
-    /// Returns the source of rows: the model or vehicle, or the source that searches the resonance or hover of each design.
+    /// Returns the object that computes rows: the model, the vehicle, or a search for the resonance or hover
+    /// of each design.
     pub fn rows(&self) -> &dyn Rows {
         match (self.resonance(), self.body()) {
             (Some(resonance), _) => resonance,
@@ -139,17 +145,18 @@ impl Plan {
         }
     }
 
-    /// Returns true if a search finds the resonance or hover of each design.
+    /// Returns true if flap searches for the resonance or for hover at each point.
     pub(crate) fn has_search(&self) -> bool {
         self.resonance().is_some() || self.body().is_some_and(BodyRows::is_at_hover)
     }
 
-    /// Returns the name of the preset; empty if the plan has no preset.
+    /// Returns the name of the preset, or an empty text if the plan has no preset.
     pub fn preset(&self) -> &'static str {
         self.space.preset
     }
 
-    /// Returns the value of each parameter before the axes are applied: the value of the preset, or of `[params]`.
+    /// Returns the value that each parameter has before the axes change it, from the preset, the device or
+    /// `[params]`.
     pub fn base(&self) -> &[Value] {
         &self.space.base
     }
@@ -159,8 +166,8 @@ impl Plan {
         self.robot().has_designs().then(|| self.parameters().len() - 1)
     }
 
-    /// Returns the values of a parameter in the designs of the plan, if the plan has several designs with different
-    /// values of the parameter.
+    /// Returns the value of a parameter in each design of the plan, if the designs have different values of
+    /// this parameter.
     pub fn in_designs(&self, parameter: usize) -> Option<&[f64]> {
         self.space.differences.of(parameter)
     }
@@ -170,13 +177,13 @@ impl Plan {
         self.space.with_units.contain(parameter)
     }
 
-    /// Returns the standard errors of the values, and the correlations of the standard errors.
+    /// Returns the standard errors of the parameters, and the correlations between the parameters.
     pub fn uncertainty(&self) -> &Uncertainty {
         &self.space.uncertainty
     }
 
-    /// Returns the devices of the plan as read: first the device of the grid, then the devices on which this device is
-    /// based.
+    /// Returns the names and texts of the devices: first the device that the grid file names, then the
+    /// devices on which this device is based.
     pub fn devices(&self) -> &[Source] {
         &self.space.devices
     }
@@ -186,15 +193,16 @@ impl Plan {
         &self.space.axes
     }
 
-    /// Returns the refinement of the grid, if the grid is refined. Curves are not refined.
+    /// Returns the settings of the refinement, if the plan has a refinement. A plan of responses has no
+    /// refinement.
     pub fn refine(&self) -> Option<&Refine> {
         self.space.refine.as_ref().filter(|_| self.followed().is_none())
     }
 
-    /// Returns the points that a refinement has added after the points of the axes. A point is given as a position
-    /// along each axis.
+    /// Returns the points that a refinement has added after the points of the axes. Each point is a list of
+    /// positions, one along each axis.
     ///
-    /// For example, position 1.5 is between the second and the third value.
+    /// For example, the position 1.5 is midway between the second and the third value of the axis.
     pub fn added(&self) -> &[Vec<f64>] {
         &self.added
     }
@@ -214,53 +222,55 @@ impl Plan {
         &self.space.conditions
     }
 
-    /// Returns the columns that are computed from the model's measures. A column may use the columns before it.
+    /// Returns the columns that the user defines by expressions. An expression can contain the model's
+    /// measures and earlier columns of the user.
     pub fn measures(&self) -> &[OwnMeasure] {
         &self.space.measures
     }
 
-    /// Returns the derivatives in rows, if rows have derivatives. Rows of curves have no derivatives.
+    /// Returns the derivatives that rows contain, if there are any. Rows of responses contain no derivatives.
     pub fn gradient(&self) -> Option<&Gradient> {
         self.space.gradient.as_ref().filter(|_| self.followed().is_none())
     }
 
-    /// Returns tolerances and limits of the integration.
+    /// Returns the tolerances and limits of the integration.
     pub fn solver(&self) -> &SolverSettings {
         &self.space.solver
     }
 
-    /// Returns the file for rows, and the columns of this file.
+    /// Returns the path and the columns of the results file.
     pub fn output(&self) -> &Output {
         &self.space.output
     }
 
-    /// Returns the parameters of all wings that the grid file sets or varies without effect, because each wing has
-    /// its own value.
+    /// Returns the parameters of all wings that the grid file sets or varies without effect, because each
+    /// wing has its own value of the parameter.
     pub fn unreached(&self) -> &[&'static Parameter<'static>] {
         &self.space.unreached
     }
 
-    /// Returns the grid file, for the record of the origin of the rows.
+    /// Returns the name and the text of the grid file, which are recorded with the results.
     pub fn source(&self) -> &Source {
         &self.space.source
     }
 
-    /// Returns the points to run.
+    /// Returns the selection of the points to run.
     pub fn selection(&self) -> &Selection {
         &self.selection
     }
 
-    /// Returns the parameter that rises and falls, if each point is a design with a curve of rows.
+    /// Returns the parameter that rises and falls, if the plan computes a response for each point.
     pub fn followed(&self) -> Option<&Along> {
         self.followed.as_ref()
     }
 
-    /// Returns the names of the state's components in rows; empty if rows contain no state.
+    /// Returns the names of the state's components that rows contain. If rows contain no state, the list is
+    /// empty.
     pub fn states(&self) -> &[String] {
         &self.states
     }
 
-    /// Returns the number of points: of the axes, and of the refinement so far.
+    /// Returns the number of points, including the points that a refinement has added so far.
     pub fn len(&self) -> u64 {
         self.axes().points() + self.added.len() as u64
     }
@@ -282,8 +292,8 @@ impl Plan {
         Point { begin, ..Point::at_rest(index, self.values(index, None)) }
     }
 
-    /// Returns the values of point number `index` with one parameter changed by `moved`, and the derived parameters that are
-    /// computed from the moved parameter.
+    /// Returns the values of point number `index` after a change of `parameter`. `moved` computes the new
+    /// value of the parameter, and the derived parameters are computed from the new value.
     pub(crate) fn values_with(&self, index: u64, parameter: usize, moved: impl Fn(f64) -> f64) -> Vec<f64> {
         self.values(index, Some((parameter, &moved)))
     }
@@ -303,8 +313,9 @@ impl Plan {
         values
     }
 
-    /// Writes the values in which the designs of the plan differ: the values of the design that `values` names.
-    /// Parameters that vary and parameters in `set` keep their values.
+    /// Writes the values of a design into `values`, for the parameters in which the designs differ. `values`
+    /// already contains the index of the design. Parameters that vary and parameters in `set` keep their
+    /// values.
     pub fn fill_design(&self, values: &mut [f64], set: &[usize]) {
         let is_set =
             |parameter| set.contains(&parameter) || self.axes().varied().any(|varied| varied == parameter);
@@ -316,20 +327,20 @@ impl Plan {
         self.selection.len(self.len())
     }
 
-    /// Returns the point at `position` among the points to run; `position` must be less than [`Plan::selected`].
+    /// Returns point number `position` of the points to run. `position` must be less than [`Plan::selected`].
     pub fn selected_point(&self, position: u64) -> Point {
         self.point(self.selection.index(position))
     }
 
     /// Returns the indices of the parameters that differ between points, in the order of their columns.
     ///
-    /// The indices are first the varied parameters in the order of the axes, then the derived parameters.
+    /// The varied parameters are first, in the order of the axes, followed by the derived parameters.
     pub fn differing(&self) -> impl Iterator<Item = usize> + '_ {
         self.axes().varied().chain(self.derived().parameters())
     }
 
-    /// Returns the description of the parameters from which `parameter` is computed, if no part of the plan sets
-    /// `parameter`.
+    /// If no part of the plan sets `parameter`, returns a description of the parameters that determine its
+    /// value.
     pub(crate) fn unset(&self, parameter: usize) -> Option<&'static str> {
         match self.base()[parameter] {
             Value::Follows(follows) if self.differing().all(|differing| differing != parameter) => {
@@ -339,14 +350,14 @@ impl Plan {
         }
     }
 
-    /// Returns the index of the parameter that gives the value of `parameter`. An unset parameter of one wing has the
-    /// value of all wings.
+    /// Returns the index of the parameter that stores the value of `parameter`. A parameter of one wing that
+    /// is not set has the value of the parameter of all wings.
     pub(crate) fn standing(&self, parameter: usize) -> usize {
         let shared = of_all_wings(self.parameters(), parameter).filter(|_| self.unset(parameter).is_some());
         shared.unwrap_or(parameter)
     }
 
-    /// Adds the measures of the plan to the measures of a row, if the point has measures.
+    /// Adds the measures that the user defined to the `measures` of a row, if the row has measures.
     pub fn add_own_measures(&self, values: &[f64], measures: &mut Vec<f64>) {
         // A row of the model at a known resonance, or of a vehicle at a known trim, lacks the columns about it.
         if self.measures().is_empty() || measures.len() != self.rows().columns().len() {
@@ -361,27 +372,28 @@ impl Plan {
     }
 }
 
-/// File for rows, and its columns.
+/// Path and columns of the results file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Output {
-    /// Path in the grid file, relative to the working directory; `None` if the grid file has no path.
+    /// Path that the grid file contains, relative to the working directory. If the grid file contains no
+    /// path, this field is `None`.
     pub path: Option<PathBuf>,
-    /// Indices in the requested order: into the model's columns, followed by the measures of the plan and the columns
-    /// about the run. `None` for all columns.
+    /// Indices of columns in the requested order, or `None` for all columns. The indices refer to the model's
+    /// columns, followed by the measures of the plan and the columns about the run.
     pub columns: Option<Vec<usize>>,
 }
 
 /// A file that lists the points of a sample.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PointsFile {
-    /// Path, relative to the working directory.
+    /// Path of the file, relative to the working directory.
     pub path: PathBuf,
     /// 64-bit XXH3 hash of the text of the file.
     pub xxh3: u64,
 }
 
 impl PointsFile {
-    /// Returns the hash in hexadecimal digits.
+    /// Returns the hash of the file in hexadecimal digits.
     pub fn hash(&self) -> String {
         format!("{:016x}", self.xxh3)
     }
@@ -390,7 +402,7 @@ impl PointsFile {
 /// Text of a grid file or a device.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Source {
-    /// Name for messages, usually the path.
+    /// Name of the file in messages, usually its path.
     pub name: String,
     /// Text.
     pub text: String,

@@ -5,7 +5,7 @@ use nalgebra::DMatrix;
 /// Standard errors of parameters, and correlations between parameters.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Uncertainty {
-    /// Indices into the model's parameter table in ascending order, each with the standard error in the parameter's SI
+    /// Indices of parameters in ascending order, each with the standard error of the parameter in its SI
     /// unit.
     errors: Vec<(usize, f64)>,
     correlations: Vec<Correlation>,
@@ -14,14 +14,14 @@ pub struct Uncertainty {
 /// Correlation of two parameters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Correlation {
-    /// Indices into the model's parameter table.
+    /// Indices of the two parameters in the model's parameter table.
     pub between: [usize; 2],
-    /// Coefficient, between -1 and 1.
+    /// Correlation coefficient, between -1 and 1.
     pub coefficient: f64,
 }
 
 impl Uncertainty {
-    /// Returns true if no parameter has an error.
+    /// Returns true if no parameter has a standard error.
     pub fn is_empty(&self) -> bool {
         self.errors.is_empty()
     }
@@ -32,7 +32,7 @@ impl Uncertainty {
         &self.errors
     }
 
-    /// Returns the correlations that are not zero.
+    /// Returns the correlations that were given. All other pairs of parameters are not correlated.
     pub fn correlations(&self) -> &[Correlation] {
         &self.correlations
     }
@@ -42,8 +42,8 @@ impl Uncertainty {
         self.errors.iter().find(|(index, _)| *index == parameter).map(|(_, error)| *error)
     }
 
-    /// Sets or removes the standard error of a parameter. The correlations of the parameter belong to the earlier value
-    /// and are removed.
+    /// Sets or removes the standard error of a parameter. The correlations of the parameter are removed,
+    /// because they refer to its earlier value.
     pub(crate) fn set(&mut self, parameter: usize, error: Option<f64>) {
         self.errors.retain(|(index, _)| *index != parameter);
         self.correlations.retain(|correlation| !correlation.between.contains(&parameter));
@@ -51,17 +51,18 @@ impl Uncertainty {
         self.errors.sort_by_key(|(index, _)| *index);
     }
 
-    /// Sets the correlation of two parameters, in place of an earlier correlation.
+    /// Sets the correlation of two parameters, and removes an earlier correlation of the same parameters.
     pub(crate) fn correlate(&mut self, correlation: Correlation) {
         let [one, other] = correlation.between;
         self.correlations.retain(|old| old.between != [one, other] && old.between != [other, one]);
         self.correlations.push(correlation);
     }
 
-    /// Returns the lower triangle L of the correlation matrix R = L Lᵀ, with a row for each of
-    /// [`Uncertainty::errors`].
+    /// Returns the lower triangular Cholesky factor L of the correlation matrix R = L Lᵀ. The factor has one
+    /// row for each parameter in [`Uncertainty::errors`].
     ///
-    /// `None` if the correlation matrix R is not positive definite, because the correlations contradict each other.
+    /// If the correlations contradict each other, R is not positive definite, and the function returns
+    /// `None`.
     pub(crate) fn factor(&self) -> Option<Vec<Vec<f64>>> {
         let n = self.errors.len();
         let mut matrix = DMatrix::identity(n, n);

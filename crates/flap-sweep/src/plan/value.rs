@@ -1,10 +1,11 @@
-//! Values of parameters before the axes are applied, and the parameters whose values have units.
+//! Values of parameters before the axes of a plan change them, and the set of parameters whose values have
+//! units.
 
 use std::collections::BTreeSet;
 
 use flap_core::parameter::{Kind, Parameter, Preset};
 
-/// Value of a parameter before the axes are applied.
+/// Value of a parameter before the axes of a plan change it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
     /// A number in SI units, or the index of an option.
@@ -13,12 +14,14 @@ pub enum Value {
     Follows(&'static str),
     /// The drive frequency is set to the resonance of each design.
     Resonance,
-    /// The designs of the plan have different values, see [`Plan::in_designs`](super::Plan::in_designs).
+    /// The designs of the plan have different values of the parameter, see
+    /// [`Plan::in_designs`](super::Plan::in_designs).
     OfDesign,
 }
 
 impl Value {
-    /// Returns the values of a preset, one per parameter. Parameters that the preset lacks have default values.
+    /// Returns the values of a preset, one for each parameter. Parameters that are not in the preset have
+    /// their default values.
     pub(crate) fn of_preset(parameters: &[Parameter<'_>], preset: &Preset) -> Vec<Value> {
         let given = (preset.values)();
         // A vehicle has more parameters than its model.
@@ -31,7 +34,7 @@ impl Value {
         values.map(value).collect()
     }
 
-    /// Returns the number, if a number is given.
+    /// Returns the number of [`Value::Given`]. For all other values, returns `None`.
     pub fn given(self) -> Option<f64> {
         match self {
             Value::Given(value) => Some(value),
@@ -39,7 +42,7 @@ impl Value {
         }
     }
 
-    /// Returns the value for a design point: NaN if no number is given.
+    /// Returns the number that points contain for the parameter. If no number is given, returns NaN.
     pub fn in_point(self) -> f64 {
         self.given().unwrap_or(f64::NAN)
     }
@@ -50,12 +53,13 @@ impl Value {
 pub(crate) struct WithUnits(BTreeSet<usize>);
 
 impl WithUnits {
-    /// Returns true if the value of the parameter has a unit.
+    /// Returns true if the value of the parameter has a unit in the file.
     pub(crate) fn contain(&self, parameter: usize) -> bool {
         self.0.contains(&parameter)
     }
 
-    /// Records whether a new value of the parameter has a unit; `None` if the value does not change.
+    /// Records if a new value of the parameter has a unit. If `has_unit` is `None`, the record does not
+    /// change.
     pub(crate) fn note(&mut self, parameter: usize, has_unit: Option<bool>) {
         match has_unit {
             Some(true) => _ = self.0.insert(parameter),

@@ -1,4 +1,4 @@
-//! Estimates of the error of linear interpolation along an edge of a box.
+//! Estimates the error of linear interpolation along an edge of a box between points.
 
 /// A point on a line: the coordinate and the measure of the point. An unknown measure is NaN.
 pub(super) type Sample = (f64, f64);
@@ -9,7 +9,8 @@ pub(super) struct Tolerance {
     pub(super) range: f64,
 }
 
-/// Ratio of the errors of two parabolas above which only one of them contains a jump or a kink.
+/// Largest usual ratio between the errors of two neighbouring parabolas. If the ratio is larger, only one of
+/// the two parabolas contains a jump or a kink.
 const MOST_APART: f64 = 8.0;
 
 /// An edge of a box, with the nearest points on the line through the edge.
@@ -17,29 +18,31 @@ pub(super) struct Edge {
     pub(super) before: Option<Sample>,
     pub(super) ends: [Sample; 2],
     pub(super) after: Option<Sample>,
-    /// True if the edge reaches from one value of the axis to the next.
+    /// True if the edge connects two neighbouring values of the axis, without points between them.
     pub(super) is_whole: bool,
 }
 
 impl Edge {
-    /// Returns the estimated error of linear interpolation between the ends, relative to the allowed error.
+    /// Returns the estimated error of linear interpolation between the ends of the edge, divided by the
+    /// allowed error.
     ///
-    /// If the measure is known at one end only, the estimate is half of the range of the measure. If the measure is
-    /// unknown at both ends, there is nothing to interpolate.
+    /// If the measure is known at one end only, the estimate is half of the range of the measure. If the
+    /// measure is unknown at both ends, the estimate is zero.
     ///
-    /// The estimate is the error of a parabola through both ends and a neighbour: h² f″/8 at the middle. There are two
-    /// such parabolas, and the estimate is the mean of both errors. Beside a jump or a kink, only one parabola contains
-    /// the jump or kink. The larger error therefore counts as at most [`MOST_APART`] times the smaller error. For an
-    /// edge between neighbouring values of the axis, the larger error counts, because nothing between the ends is
-    /// known.
+    /// For a parabola through both ends and a neighbouring point, the error of linear interpolation at the
+    /// middle of the edge is h² f″/8. There is one such parabola for each of the two neighbouring points, and
+    /// the estimate is the mean of their errors. Beside a jump or a kink, only one of the two parabolas
+    /// contains the jump or kink. The larger error therefore counts as at most [`MOST_APART`] times the
+    /// smaller error. If the edge connects two neighbouring values of the axis, the estimate is the larger
+    /// error, because no point between them is known.
     ///
-    /// If the measure changes more than twice as much as beside the edge, the measure may jump. For such a jump, the
-    /// estimate is half of the change.
+    /// If the measure changes more than twice as much along the edge as beside it, the measure may have a
+    /// jump. In this case, the estimate is half of the change.
     pub(super) fn error(&self, tolerance: &Tolerance) -> f64 {
         if tolerance.error > 0.0 { self.size(tolerance.range) / tolerance.error } else { 0.0 }
     }
 
-    /// Returns the estimated error in the unit of the measure.
+    /// Returns the estimated error of linear interpolation in the unit of the measure.
     fn size(&self, range: f64) -> f64 {
         let [(low, first), (high, last)] = self.ends;
         match (first.is_finite(), last.is_finite()) {
@@ -75,11 +78,12 @@ impl Edge {
     }
 }
 
-/// Returns the axis along which a box is halved; `None` if the box is not halved. `errors` contains the errors along
-/// the axes, relative to the allowed error.
+/// Returns the axis along which a box should be halved, or `None` if the box should not be halved. `errors`
+/// contains the estimated error along each axis, divided by the allowed error.
 ///
-/// Halving leaves a quarter of the error along the halved axis. Halving does not decrease the error of a jump. A box is
-/// therefore also halved along the other axes that a jump crosses: each earlier halving counts as half of the error.
+/// If a measure is smooth, halving a box reduces the error along the halved axis to a quarter. If the measure
+/// has a jump, halving does not reduce the error. The error along an axis is therefore divided by two for
+/// each earlier halving. In this way, a box at a jump is halved along all axes.
 pub(super) fn axis(errors: &[f64], halvings: &[u32], most: u32) -> Option<usize> {
     let share = 1.0 / errors.len() as f64;
     let weight = |axis: usize| errors[axis] * libm::exp2(-f64::from(halvings[axis]));

@@ -1,13 +1,14 @@
-//! Boxes between points: corners of boxes, halving of boxes, and the choice of the next points.
+//! The boxes between the points of a refined grid, and the choice of the boxes to halve.
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use super::estimate::{self, Edge, Tolerance};
 
-/// Coordinates along a refined axis, in which rows are interpolated.
+/// Coordinates along an axis, between which measures are interpolated.
 #[derive(Clone, Debug)]
 pub(super) enum Side {
-    /// Equidistant coordinates, also for values with a constant ratio. The variant contains the number of coordinates.
+    /// Equidistant coordinates 0, 1, 2 and so on, which also represent values with a constant ratio. The
+    /// variant contains the number of coordinates.
     Even(u64),
     /// Listed values.
     Listed(Vec<f64>),
@@ -22,7 +23,8 @@ impl Side {
         }
     }
 
-    /// Returns the coordinate at a number of smallest steps, with `whole` steps between values of the axis.
+    /// Returns the coordinate that is `steps` smallest steps after the first value of the axis. There are
+    /// `whole` smallest steps between two neighbouring values of the axis.
     fn coordinate(&self, steps: u64, whole: u64) -> f64 {
         let position = steps as f64 / whole as f64;
         match self {
@@ -40,14 +42,15 @@ impl Side {
 /// Place of a point in the mesh.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub(super) struct Place {
-    /// Number of the combination of values of the axes that are not refined.
+    /// Index of the combination of values of the axes along which no points are added.
     pub(super) map: u64,
-    /// Along each refined axis, the number of smallest steps from the first value of the axis.
+    /// Position along each axis of the mesh, as the number of smallest steps from the first value of the
+    /// axis.
     pub(super) at: Vec<u64>,
 }
 
 impl Place {
-    /// Returns the place after a change of the position along one axis.
+    /// Returns the place with the new position `to` along one axis.
     fn moved(&self, axis: usize, to: u64) -> Place {
         let mut place = self.clone();
         place.at[axis] = to;
@@ -55,11 +58,11 @@ impl Place {
     }
 }
 
-/// A box between points.
+/// A box whose corners are points of the grid.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Cell {
     low: Place,
-    /// Number of halvings along each axis.
+    /// Number of times that the box has been halved along each axis.
     halvings: Vec<u32>,
 }
 
@@ -67,32 +70,35 @@ struct Cell {
 #[derive(Clone, Debug)]
 pub(super) struct Mesh {
     sides: Vec<Side>,
-    /// Largest number of halvings of a box.
+    /// Largest number of times that a box can be halved along each axis.
     most: u32,
     measures: usize,
     /// Measures of all points, in the order of the points.
     measured: Vec<f64>,
-    /// Number of each point in the mesh.
+    /// Index of the point at each place, in the order in which points were added.
     numbers: HashMap<Place, usize>,
-    /// The lines of points along each axis of the mesh. The key of a line is its place at position 0, and the key of a point on
-    /// the line is its position.
+    /// For each axis of the mesh, the lines of points that are parallel to the axis. The key of a line is the
+    /// place on the line at position 0. A line contains the index of each point by the position of the point
+    /// along the axis.
     lines: Vec<HashMap<Place, BTreeMap<u64, usize>>>,
     cells: Vec<Cell>,
 }
 
 /// A box that is to be halved.
 struct Halving {
-    /// Estimated error times the mean side of the box.
+    /// Estimated error of the box times the geometric mean of its side lengths.
     ///
-    /// With the error alone as the criterion, all points would be added at jumps, where the error does not decrease. If
-    /// the gain were the error times the volume, the mean error would decrease fastest, but the largest error slowly.
+    /// If the gain were the error alone, all points would be added at jumps, where halving does not decrease
+    /// the error. If the gain were the error times the volume, the mean error would decrease fast, but the
+    /// largest error would decrease slowly.
     gain: f64,
     cell: usize,
     axis: usize,
 }
 
 impl Mesh {
-    /// Returns the meshes of the cells between the values of axes: one mesh for each of the `maps` maps.
+    /// Returns a mesh with a box between all neighbouring values of the axes. The boxes exist once for each
+    /// of the `maps` combinations of values of the axes along which no points are added.
     pub(super) fn new(sides: Vec<Side>, maps: u64, most: u32, measures: usize) -> Mesh {
         let mut corners: Vec<Vec<u64>> = vec![Vec::new()];
         for side in &sides {
@@ -122,7 +128,8 @@ impl Mesh {
         self.numbers.insert(place, number);
     }
 
-    /// Returns the difference between the largest and the smallest value of each measure; zero if there are no values.
+    /// Returns the difference between the largest and the smallest value of each measure. If a measure has no
+    /// values, the difference is zero.
     pub(super) fn ranges(&self) -> Vec<f64> {
         let range = |measure: usize| {
             let values = self.measured.iter().skip(measure).step_by(self.measures);
@@ -135,10 +142,12 @@ impl Mesh {
         (0..self.measures).map(range).collect()
     }
 
-    /// Halves boxes whose estimated error is larger than the allowed error, in the order of [`Halving::gain`]. Returns
-    /// the middles of the edges of halved boxes that are not yet points, in ascending order.
+    /// Halves boxes whose estimated error is larger than the allowed error, beginning with the largest
+    /// [`Halving::gain`]. Returns the places of the new points in ascending order: the midpoints of halved
+    /// edges.
     ///
-    /// The halving ends when there are at least `wanted` places, and returns at most `room` places.
+    /// The function stops when it has found at least `wanted` new points, and returns at most `room` new
+    /// points.
     pub(super) fn next_round(&mut self, tolerances: &[Tolerance], (wanted, room): (u64, u64)) -> Vec<Place> {
         let mut places = BTreeSet::new();
         loop {
@@ -168,15 +177,15 @@ impl Mesh {
         }
     }
 
-    /// Returns three numbers: all boxes, boxes with too large an error estimate, and boxes with too large an error that
-    /// can be halved.
+    /// Returns three counts: all boxes, boxes whose estimated error is too large, and boxes with too large an
+    /// error that can still be halved.
     pub(super) fn count(&self, tolerances: &[Tolerance]) -> [u64; 3] {
         let errors = self.cells.iter().map(|cell| self.errors(cell, tolerances).iter().sum::<f64>());
         let above = errors.filter(|error| *error > 1.0).count();
         [self.cells.len() as u64, above as u64, self.halvings(tolerances).len() as u64]
     }
 
-    /// Returns the boxes that should be halved, each with its axis.
+    /// Returns the boxes that should be halved, each with the axis along which it should be halved.
     fn halvings(&self, tolerances: &[Tolerance]) -> Vec<Halving> {
         let halving = |(number, cell): (usize, &Cell)| {
             let errors = self.errors(cell, tolerances);
@@ -189,7 +198,8 @@ impl Mesh {
         self.cells.iter().enumerate().filter_map(halving).collect()
     }
 
-    /// Replaces each chosen box by its halves along an axis.
+    /// Replaces each chosen box by its two halves. `chosen` contains the index of each box and the axis of
+    /// the halving.
     fn halve(&mut self, chosen: Vec<(usize, usize)>) {
         for (number, axis) in chosen {
             self.cells[number].halvings[axis] += 1;
@@ -204,7 +214,7 @@ impl Mesh {
         1 << (self.most - cell.halvings[axis])
     }
 
-    /// Returns the lower ends of the edges of a box along an axis.
+    /// Returns the lower ends of those edges of a box that are parallel to an axis.
     fn edges(&self, cell: &Cell, axis: usize) -> Vec<Place> {
         let mut ends = vec![cell.low.clone()];
         for other in (0..self.sides.len()).filter(|other| *other != axis) {
@@ -215,13 +225,13 @@ impl Mesh {
         ends
     }
 
-    /// Returns the middle points of the edges of a box along an axis.
+    /// Returns the midpoints of those edges of a box that are parallel to an axis.
     fn middles(&self, cell: &Cell, axis: usize) -> Vec<Place> {
         let half = self.length(cell, axis) / 2;
         self.edges(cell, axis).into_iter().map(|end| end.moved(axis, end.at[axis] + half)).collect()
     }
 
-    /// Returns the estimated error of a box along each axis, relative to the allowed error.
+    /// Returns the largest estimated error of a box along each axis, divided by the allowed error.
     fn errors(&self, cell: &Cell, tolerances: &[Tolerance]) -> Vec<f64> {
         let along = |axis: usize| {
             let length = self.length(cell, axis);
@@ -260,7 +270,7 @@ mod tests {
 
     const HALVINGS: u32 = 6;
 
-    /// Adds the rows of `measure` over the unit square, at the points of the axes and then in rounds.
+    /// Refines a mesh over the unit square, with the values of the function `measure` at its points.
     fn refined(side: u64, most: usize, share: f64, measure: impl Fn(f64, f64) -> f64) -> (Mesh, usize) {
         let mut mesh = Mesh::new(vec![Side::Even(side), Side::Even(side)], 1, HALVINGS, 1);
         let whole = ((side - 1) << HALVINGS) as f64;
@@ -285,8 +295,8 @@ mod tests {
         mesh.ranges().into_iter().map(|range| Tolerance { error: share * range, range }).collect()
     }
 
-    /// Returns the largest error of the bilinear interpolation of `measure` in boxes, given by their lower corner and
-    /// their sides.
+    /// Returns the largest error of the bilinear interpolation of `measure` in the given boxes. A box is
+    /// given by its lower corner and its side lengths.
     fn largest_error(
         boxes: impl Iterator<Item = ([f64; 2], [f64; 2])>,
         measure: impl Fn(f64, f64) -> f64,

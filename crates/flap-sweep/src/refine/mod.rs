@@ -1,12 +1,12 @@
-//! Refinement of a grid: points that are added after the points of the axes.
+//! Refines a grid: chooses the points that are added after the points of the axes.
 //!
-//! Points of the axes are the corners of boxes. When the rows of these points exist, flap estimates the error of a
-//! multilinear interpolation within each box (`estimate`). Boxes with large errors are halved, and the middles of their
-//! edges are the next points (`mesh`). Points are added in rounds until all estimates are small enough or there are
-//! enough points.
+//! The points of the axes are the corners of boxes. When the rows of these points exist, flap estimates the
+//! error of a multilinear interpolation within each box (`estimate`). Boxes with large errors are halved, and
+//! the midpoints of their edges are the next points (`mesh`). Points are added in rounds until all estimated
+//! errors are small enough, or the plan has `max_points` points.
 //!
-//! A round depends on the settings and on the written rows of earlier rounds. A resumed run reads the rows from its
-//! file and gets the same points.
+//! The points of a round depend on the settings and on the written rows of earlier rounds. A resumed run
+//! reads the earlier rows from its results file and therefore adds the same points.
 
 mod estimate;
 mod mesh;
@@ -25,16 +25,17 @@ use crate::table::layout::Layout;
 use estimate::Tolerance;
 use mesh::{Mesh, Place, Side};
 
-/// The rows of a refined grid so far, and the choice of the next points.
+/// A refinement in progress. It stores the measures of the rows so far, and chooses the next points.
 #[derive(Clone, Debug)]
 pub struct Refinement {
     refine: Refine,
-    /// For each axis of the plan, the length of the axis, and the index of the axis among the refined axes.
+    /// For each axis of the plan: its length, and its index among the axes along which points are added. If
+    /// no points are added along the axis, the index is `None`.
     axes: Vec<(u64, Option<usize>)>,
-    /// Columns of the measures in a row.
+    /// Indices of the columns that contain the measures of the refinement.
     columns: Vec<usize>,
     mesh: Mesh,
-    /// Points without a row, in the order of the points.
+    /// Points whose rows have not been received yet, in the order of the points.
     waiting: VecDeque<Place>,
     points: u64,
     rounds: u64,
@@ -43,23 +44,23 @@ pub struct Refinement {
 /// Result of a refinement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Refined {
-    /// Number of rounds.
+    /// Number of rounds in which points were added.
     pub rounds: u64,
-    /// Number of points that follow the points of the axes.
+    /// Number of points that the refinement added to the points of the axes.
     pub added: u64,
     /// Number of boxes between points.
     pub boxes: u64,
-    /// Number of boxes of the refinement whose estimated error is too large.
+    /// Number of boxes whose estimated error is too large.
     pub above: u64,
     /// True if the refinement ended early because of `max_points`.
     pub is_limited: bool,
 }
 
 impl Refinement {
-    /// Returns the refinement of `plan` before its first row.
+    /// Returns the refinement of `plan` at its beginning, when it has not received any rows.
     ///
-    /// `None` if the plan has no refinement, selects only part of its points, or leaves a measure of the refinement out
-    /// of its rows.
+    /// Returns `None` if the plan has no refinement, runs only some of its points, or has rows without a
+    /// measure of the refinement.
     pub fn of(plan: &Plan) -> Option<Refinement> {
         let refine = plan.refine().filter(|_| *plan.selection() == Selection::All)?.clone();
         let names = Layout::of(plan).names();
@@ -78,8 +79,8 @@ impl Refinement {
         Some(refinement)
     }
 
-    /// Receives the row of the next point. `cell` returns the number in a column; NaN if the number is unknown or the
-    /// point is excluded.
+    /// Receives the row of the next point. `cell` returns the number in a column of this row, or NaN if the
+    /// number is unknown or the point is excluded.
     pub(crate) fn add(&mut self, cell: impl Fn(usize) -> f64) {
         let measures: Vec<f64> = self.columns.iter().map(|&column| cell(column)).collect();
         if let Some(place) = self.waiting.pop_front() {
@@ -87,7 +88,7 @@ impl Refinement {
         }
     }
 
-    /// Returns the points of the next round, each as a position along each axis.
+    /// Returns the points of the next round. Each point is a list of positions, one along each axis.
     ///
     /// The result is empty if the refinement has ended, or if a row of the earlier points is missing.
     pub fn next_round(&mut self) -> Vec<Vec<f64>> {
@@ -105,7 +106,7 @@ impl Refinement {
         positions
     }
 
-    /// Returns the result so far.
+    /// Returns the numbers of rounds, added points and boxes of the refinement so far.
     pub fn refined(&self) -> Refined {
         let added = self.points - self.axes.iter().map(|(length, _)| length).product::<u64>();
         let [boxes, above, open] = self.mesh.count(&self.tolerances());
@@ -121,7 +122,7 @@ impl Refinement {
         limits.map(tolerance).collect()
     }
 
-    /// Returns the place of a point of the axes.
+    /// Returns the place in the mesh of point number `index` of the axes.
     fn place(&self, index: u64) -> Place {
         let mut place = Place { map: 0, at: vec![0; self.refine.along.len()] };
         let (mut rest, mut maps) = (index, 1);
@@ -138,7 +139,7 @@ impl Refinement {
         place
     }
 
-    /// Returns the position of a place along each axis of the plan.
+    /// Converts a place in the mesh to a position along each axis of the plan.
     fn positions(&self, place: &Place) -> Vec<f64> {
         let whole = (1_u64 << self.refine.halvings) as f64;
         let mut rest = place.map;
@@ -157,7 +158,7 @@ impl Refinement {
     }
 }
 
-/// Returns the coordinates along a refined axis.
+/// Returns the coordinates along an axis, between which measures are interpolated.
 fn side(axis: &Axis) -> Side {
     match axis.parameters().first() {
         Some((_, Values::List(list))) => Side::Listed(list.clone()),
@@ -165,16 +166,17 @@ fn side(axis: &Axis) -> Side {
     }
 }
 
-/// Returns the plan with the points of all rounds that begin within the first `done` points. The function also returns
-/// the refinement after the first `done` points.
+/// Repeats the refinement of an interrupted run up to the first `done` points. Returns the plan with the
+/// points of all rounds that had begun, and the refinement at this point of the run.
 ///
-/// `rows` are the written rows of the plan, in their order.
+/// `rows` contains the written rows of the plan, in the order of the points.
 ///
-/// `None` if the plan has no refinement.
+/// Returns `None` if the plan has no refinement.
 ///
 /// # Errors
-/// - [`io::ErrorKind::InvalidData`] if a row is not the next row of the plan, or rows are missing.
-/// - The error of reading a row.
+/// - [`io::ErrorKind::InvalidData`] if `rows` does not contain the row of each point in the order of the
+///   plan.
+/// - Any error that occurs while a row is read.
 pub fn replay(
     plan: &Plan,
     done: u64,

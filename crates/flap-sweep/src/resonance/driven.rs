@@ -1,5 +1,5 @@
-//! Drive frequencies at which the settled stroke of one design is largest, and the size of an impulse for free
-//! motions.
+//! Searches the drive frequencies at which the settled stroke of one design is largest. The module also
+//! checks the size of an impulse for free motions.
 
 use std::f64::consts::PI;
 
@@ -18,20 +18,21 @@ const PEAKS: usize = 2;
 pub struct DrivenPeak {
     /// Drive frequency (Hz).
     pub frequency: f64,
-    /// Stroke, peak to peak (deg).
+    /// Peak-to-peak stroke at this frequency (deg).
     pub stroke_pp: f64,
-    /// Pitch, peak to peak (deg).
+    /// Peak-to-peak pitch at this frequency (deg).
     pub pitch_pp: f64,
 }
 
-/// Result of a search.
+/// Result of a search for the peaks of the stroke.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrivenPeaks {
-    /// Lowest and highest frequency of the range (Hz).
+    /// Lowest and highest frequency of the searched range (Hz).
     pub range: [f64; 2],
-    /// At most two peaks inside the range, beginning with the highest peak.
+    /// At most two peaks inside the searched range, beginning with the highest peak.
     pub peaks: Vec<DrivenPeak>,
-    /// End of the range (Hz) at which the stroke is larger than at every peak, if there is such an end.
+    /// End of the searched range (Hz) at which the stroke is larger than at every peak, if there is such an
+    /// end.
     pub larger_at: Option<f64>,
     /// Number of points that were run.
     pub points: usize,
@@ -39,14 +40,14 @@ pub struct DrivenPeaks {
     pub gaps: Vec<Gap>,
 }
 
-/// Neighbouring drive frequencies without a periodic motion.
+/// An interval of drive frequencies at which the search found no periodic motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gap {
-    /// Lowest frequency (Hz).
+    /// Lowest frequency of the interval (Hz).
     pub from: f64,
-    /// Highest frequency (Hz).
+    /// Highest frequency of the interval (Hz).
     pub to: f64,
-    /// Number of frequencies.
+    /// Number of frequencies in the interval that were run.
     pub points: usize,
     /// Status of the motion at all frequencies of the gap.
     pub status: Status,
@@ -54,12 +55,14 @@ pub struct Gap {
 
 /// Computes the drive frequencies at which the stroke of a design point is largest.
 ///
-/// Stroke and pitch of a peak belong to the motion from rest. `range.of` is ignored. `update` computes the values that
-/// depend on the drive frequency, and returns the reason if a point with the new values cannot be run.
+/// The stroke and the pitch of each peak are measured on the motion that begins at rest. The field `range.of`
+/// is ignored. `update` computes the values that depend on the drive frequency, and returns the reason if a
+/// point with the new values cannot be run.
 ///
 /// # Errors
 /// - [`Unfinished::Interrupted`] if the search is interrupted.
-/// - [`Unfinished::Invalid`] if the combination of values or the search is impossible.
+/// - [`Unfinished::Invalid`] if the parameter values contradict each other, or no search is possible with the
+///   range, stroke or model.
 pub fn search(
     model: &'static dyn Simulator,
     run: &PointRun<'_>,
@@ -93,8 +96,8 @@ pub fn search(
     Ok(peaks(&found, &seen, tolerance, [target.objective, pitch]))
 }
 
-/// Returns the peaks that the search found. `amplitudes` are the indices of the amplitudes of stroke and pitch in the
-/// measures.
+/// Returns the peaks that the search found. `amplitudes` contains the indices of the stroke amplitude and the
+/// pitch amplitude among the measures.
 fn peaks(found: &Found, seen: &[Seen], tolerance: f64, amplitudes: [usize; 2]) -> DrivenPeaks {
     let [from, to] = found.ends;
     let mut tops: Vec<DrivenPeak> =
@@ -108,7 +111,7 @@ fn peaks(found: &Found, seen: &[Seen], tolerance: f64, amplitudes: [usize; 2]) -
     DrivenPeaks { range: found.ends, peaks: tops, larger_at, points: seen.len(), gaps: gaps(seen) }
 }
 
-/// Returns the peak with the motion of `row`; `None` if the motion is not periodic.
+/// Returns a peak with the stroke and the pitch of `row`. If the motion is not periodic, returns `None`.
 fn peak(frequency: f64, row: &Row, amplitudes: [usize; 2]) -> Option<DrivenPeak> {
     let [stroke, pitch] = amplitudes.map(|index| row.measures.get(index).map(|amplitude| 2.0 * amplitude));
     Some(DrivenPeak { frequency, stroke_pp: stroke?, pitch_pp: pitch? })
@@ -135,11 +138,11 @@ fn gaps(seen: &[Seen]) -> Vec<Gap> {
     gaps
 }
 
-/// Returns the amplitude (rad) of an impulse, if the amplitude is at most 180°. With a larger impulse, the wing would
-/// pass through the body.
+/// Checks that the amplitude of an impulse (rad) is at most 180°, and returns the amplitude. With a larger
+/// impulse, the wing would pass through the body.
 ///
 /// # Errors
-/// An error with advice if the magnitude of the amplitude is larger than π.
+/// Returns an error with advice if the magnitude of the amplitude is larger than π, or NaN.
 pub fn impulse(amplitude: f64) -> Result<f64, UserError> {
     if amplitude.abs() <= PI {
         return Ok(amplitude);

@@ -1,11 +1,11 @@
 //! Resonances of designs: drive frequencies at which stroke, lift or efficiency is largest.
 //!
-//! - [`AtResonance`]: rows of designs, each at its own resonance.
-//! - [`driven`]: highest peaks of one design, and with [`impulse()`] the size of an impulse for the analysis of free
-//!   motions.
-//! - `search`: search for the resonance and for all peaks, and for the maximum of one peak.
-//! - `target`: quantity to maximise, and range of the search.
-//! - [`sequence`]: computations that wait for rows, which determine the next points.
+//! - [`AtResonance`]: computes the row of each design at the resonance of this design.
+//! - [`driven`]: searches the highest peaks of one design over the drive frequency. The function
+//!   [`impulse()`] checks the size of an impulse for the analysis of free motions.
+//! - `search`: searches for the resonance of a design, or for all its peaks.
+//! - `target`: the quantity that is largest at the resonance, and the range of the search.
+//! - [`sequence`]: computations in which the rows of earlier points determine the next points.
 
 pub mod driven;
 mod rows;

@@ -1,4 +1,4 @@
-//! Rows of designs, each at its own resonance.
+//! Computes the row of each design at the resonance of this design.
 
 use flap_core::model::OverWings;
 use flap_core::num::Backend;
@@ -10,8 +10,8 @@ use super::target::{Objective, Range, Target, places};
 
 /// A model whose rows are computed at the resonance of each design. The drive frequency of a point is ignored.
 ///
-/// A row is the model's row at [`RESONANCE_HZ`], except `cycles` and `rhs_evals`, which count the whole search. After
-/// the model's measures, the row contains measures about the resonance.
+/// A row contains the measures of the model at the resonance. Only the columns `cycles` and `rhs_evals` count
+/// the work of the whole search. After the model's measures, the row contains measures about the resonance.
 #[derive(Clone)]
 pub struct AtResonance {
     target: Target,
@@ -24,8 +24,8 @@ pub const RESONANCE_HZ: &str = "resonance_hz";
 /// Name of the column with the distance between the resonance and the nearer end of the range.
 pub const RESONANCE_MARGIN_HZ: &str = "resonance_margin_hz";
 
-/// Returns the measures that rows of a simulator can have: first the measures of the simulator, then measures about the
-/// resonance.
+/// Returns all measures that rows of a simulator can have: first the measures of the simulator, then measures
+/// about the resonance.
 pub fn measures(simulator: &dyn Simulator) -> Vec<Column> {
     let of = Range::default().of;
     if places(simulator, of).is_some() { columns(simulator, of) } else { simulator.columns().to_vec() }
@@ -64,13 +64,13 @@ fn columns(model: &dyn Simulator, of: Objective) -> Vec<Column> {
 }
 
 impl AtResonance {
-    /// Returns the resonances of designs of `model`; `None` if the model has no drive frequency or does not measure the
-    /// objective.
+    /// Returns the source of rows at the resonance of each design of `model`. If the model has no drive
+    /// frequency or does not measure the objective, returns `None`.
     pub fn new(model: &'static dyn Simulator, range: Range) -> Option<AtResonance> {
         Some(AtResonance { target: Target::new(model, range)?, columns: columns(model, range.of) })
     }
 
-    /// Returns the range of the search.
+    /// Returns the range and accuracy of the search for resonances.
     pub fn range(&self) -> &Range {
         &self.target.range
     }
@@ -93,7 +93,7 @@ impl Rows for AtResonance {
     }
 }
 
-/// Designs of a sweep whose rows are being computed.
+/// Source of the designs of a sweep, and receiver of the rows of the designs.
 struct Designs<'a> {
     at: &'a AtResonance,
     jobs: &'a mut dyn Jobs,

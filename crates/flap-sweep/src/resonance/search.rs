@@ -1,11 +1,12 @@
-//! Search for the resonance of one design.
+//! Searches the resonance of one design.
 //!
-//! Points on a grid over the range show the peaks. [`Maximum`] locates the highest peaks. Each point begins at the
-//! orbit of its nearest neighbour, which takes half the time of a start from rest.
+//! First, the search runs points on a grid of frequencies, from which it selects the highest peaks. Then
+//! [`Maximum`] locates these peaks accurately. In this second step, each point begins at the orbit of its
+//! nearest neighbour, which takes half the time of a start from rest.
 //!
-//! The row at a resonance belongs to the motion from rest, like every row of a sweep. If this motion differs from the
-//! motion that the search found at the same frequency, the design has more than one orbit. For a design with more than
-//! one orbit, the peaks are located again with all points from rest.
+//! The row at a resonance describes the motion that begins at rest, like every row of a sweep. If this motion
+//! differs from the motion that the search found at the same frequency, the design has more than one orbit.
+//! For a design with more than one orbit, the peaks are located again, and all points begin at rest.
 
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status, Unfinished};
@@ -13,38 +14,40 @@ use flap_core::simulate::{Point, Row, Status, Unfinished};
 use super::sequence::{Exchange, Sequence};
 use super::target::Target;
 
-/// Ratio of neighbouring frequencies of the grid, minus one. A peak of quality Q has a relative width of 1/Q.
+/// Relative distance between neighbouring frequencies of the grid. For comparison, a peak with the quality
+/// factor Q has a relative width of 1/Q.
 const SPACING: f64 = 0.02;
 
-/// Smallest and largest number of intervals of the grid.
+/// Smallest and largest number of intervals of the grid of frequencies.
 const INTERVALS: [f64; 2] = [8.0, 500.0];
 
-/// Largest number of peaks that are located.
+/// Largest number of peaks that the search locates accurately.
 const MOST_TOPS: usize = 4;
 
-/// Peaks to locate, and peaks to run from rest at the end.
+/// Selection of the peaks that are located accurately, and of the peaks whose points are computed again from
+/// rest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Peaks {
-    /// Largest difference between the vertex of a peak's parabola and the highest vertex, relative to the highest
-    /// vertex.
+    /// A peak is located accurately if its estimated height is lower than the highest peak by at most this
+    /// fraction.
     contender: f64,
-    /// Number of peaks to run from rest, beginning with the highest peak.
+    /// Number of the highest peaks whose points are computed again from rest.
     from_rest: usize,
 }
 
 impl Peaks {
-    /// The highest peak, and other peaks that may be higher.
+    /// Locates the highest peak on the grid, and further peaks that may be higher between the points of the
+    /// grid.
     pub(super) const HIGHEST: Peaks = Peaks { contender: 0.15, from_rest: 1 };
 
-    /// All peaks.
+    /// Locates all peaks, up to [`MOST_TOPS`].
     pub(super) const ALL: Peaks = Peaks { contender: 1.0, from_rest: MOST_TOPS };
 }
 
-/// Largest difference between the second peak and the highest peak, relative to the highest peak, for which rows report
-/// the second peak.
+/// Rows report the second peak if it is lower than the highest peak by at most this fraction.
 const SECOND: f64 = 0.05;
 
-/// Largest relative difference between two computed values of the same orbit.
+/// If two computed values differ by at most this fraction, they count as values of the same orbit.
 const SAME: f64 = 1e-3;
 
 /// Search for the resonance of one design.
@@ -52,38 +55,40 @@ pub(super) struct Search<'a> {
     target: &'a Target,
     point: Point,
     peaks: Peaks,
-    /// Lowest and highest frequency (Hz), or the reason why a search is impossible.
+    /// Lowest and highest frequency of the search (Hz), or the reason why a search is impossible.
     ends: Result<[f64; 2], Unfinished>,
     /// All points that were run.
     seen: Vec<Seen>,
     cycles: u32,
     rhs_evals: u64,
-    /// Located peaks, each `[frequency, value]`, beginning with the highest peak.
+    /// The located peaks, each as `[frequency, value]`, beginning with the highest peak.
     tops: Vec<[f64; 2]>,
-    /// Rows of the peaks that were run from rest; without a peak, the row of another point.
+    /// Rows of the peaks, computed from rest. If there is no peak, the list contains one row that shows the
+    /// reason.
     rows: Vec<Row>,
 }
 
 /// A point that the search has run.
 pub(super) struct Seen {
     pub(super) frequency: f64,
-    /// Quantity to maximise; minus infinity if the motion is not periodic.
+    /// Value of the quantity to maximise, or minus infinity if the motion is not periodic.
     value: f64,
-    /// State on the orbit of the point; `None` if the motion is not periodic.
+    /// A state on the orbit of the point, or `None` if the motion is not periodic.
     state: Option<Vec<f64>>,
     pub(super) status: Status,
 }
 
-/// Result of a search.
+/// Result of a search for peaks.
 pub(super) struct Found {
-    /// Lowest and highest frequency of the range (Hz).
+    /// Lowest and highest frequency of the searched range (Hz).
     pub(super) ends: [f64; 2],
-    /// Peaks that were run from rest, each `[frequency, value]`, with their rows.
+    /// Peaks that were computed from rest, each as `[frequency, value]` with its row.
     pub(super) peaks: Vec<([f64; 2], Row)>,
 }
 
 impl<'a> Search<'a> {
-    /// Returns a search for peaks of `target` at the design `point`, whose drive frequency is ignored.
+    /// Returns a search for the peaks of one design. `point` contains the parameter values of the design, and
+    /// its drive frequency is ignored.
     pub(super) fn new(target: &'a Target, point: Point, peaks: Peaks) -> Search<'a> {
         let ends = target.ends(&point.values);
         Search {
@@ -99,12 +104,12 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the computation of the search.
+    /// Returns the search as a computation that waits for the rows of its points.
     pub(super) fn sequence(self) -> Sequence<'a, Search<'a>> {
         Sequence::new(|exchange| async move { self.run(&exchange).await })
     }
 
-    /// Returns the index of the design and the row of the design, after the search.
+    /// Returns the index and the row of the design when the search has ended.
     pub(super) fn into_row(mut self) -> (u64, Row) {
         let index = self.point.index;
         let mut row = match &self.ends {
@@ -130,11 +135,11 @@ impl<'a> Search<'a> {
         (index, row)
     }
 
-    /// Returns the peaks and all points that were run, after the search.
+    /// Returns the peaks and all points that were run when the search has ended.
     ///
     /// # Errors
-    /// An error if the design is impossible, or has no range of frequencies to search. Also an error if the quantity to
-    /// maximise is undefined at all frequencies.
+    /// Returns an error if the design is impossible, or has no range of frequencies to search. Also returns
+    /// an error if the quantity to maximise is undefined at all frequencies.
     pub(super) fn into_peaks(self) -> Result<(Found, Vec<Seen>), Unfinished> {
         let ends = self.ends?;
         if self.tops.is_empty()
@@ -152,7 +157,7 @@ impl<'a> Search<'a> {
         Point { begin, ..Point::at_rest(0, values) }
     }
 
-    /// Returns the state on the known orbit with the nearest frequency.
+    /// Returns a state on the known orbit whose frequency is nearest to `frequency`.
     fn nearest_state(&self, frequency: f64) -> Option<Vec<f64>> {
         let distance = |seen: &&Seen| (seen.frequency - frequency).abs();
         let known = self.seen.iter().filter(|seen| seen.state.is_some());
@@ -168,7 +173,8 @@ impl<'a> Search<'a> {
         self.rhs_evals += row.rhs_evals;
     }
 
-    /// Returns the peaks of the grid, whose points are the first points in `seen`.
+    /// Returns the highest peaks among the points of the grid. The first `grid` points in `seen` are the
+    /// points of the grid.
     fn tops(&self, grid: usize) -> Vec<Maximum> {
         let grid: Vec<[f64; 2]> = self.seen[..grid].iter().map(|seen| [seen.frequency, seen.value]).collect();
         let mut tops: Vec<(f64, [[f64; 2]; 3])> = Vec::new();
@@ -188,7 +194,7 @@ impl<'a> Search<'a> {
         tops.into_iter().map(|(_, points)| Maximum::new(points, self.target.range.tolerance)).collect()
     }
 
-    /// Runs the search.
+    /// Runs the whole search for one design.
     async fn run(mut self, exchange: &Exchange) -> Search<'a> {
         let Ok(ends) = self.ends else { return self };
         let grid = grid(ends);
@@ -222,7 +228,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Locates the peaks of the grid. Returns `[frequency, value]` of each peak, beginning with the highest peak.
+    /// Locates the peaks of the grid accurately. Returns `[frequency, value]` of each peak, beginning with
+    /// the highest peak.
     async fn locate(&mut self, exchange: &Exchange, grid: usize, from_rest: bool) -> Vec<[f64; 2]> {
         let mut tops = self.tops(grid);
         loop {
@@ -241,8 +248,8 @@ impl<'a> Search<'a> {
         tops
     }
 
-    /// Runs points at the given frequencies and returns their rows. The points begin at rest, or at the nearest known
-    /// orbit.
+    /// Runs points at the given frequencies and returns their rows. If `from_rest` is true, the points begin
+    /// at rest, and otherwise at the nearest known orbit.
     async fn rows(&mut self, exchange: &Exchange, frequencies: &[f64], from_rest: bool) -> Vec<Row> {
         let begin = |frequency| if from_rest { None } else { self.nearest_state(frequency) };
         let points = frequencies.iter().map(|&frequency| self.point_at(frequency, begin(frequency)));
@@ -253,13 +260,14 @@ impl<'a> Search<'a> {
         rows
     }
 
-    /// Returns the points that were run last, at the given frequencies.
+    /// Returns the latest points of the search, which were run at the given frequencies.
     fn latest(&self, frequencies: &[f64]) -> &[Seen] {
         &self.seen[self.seen.len() - frequencies.len()..]
     }
 }
 
-/// Returns the frequencies of the grid (Hz) between two frequencies, with a constant ratio.
+/// Returns a grid of frequencies (Hz) from `from` to `to`, with a constant ratio between neighbouring
+/// frequencies.
 fn grid([from, to]: [f64; 2]) -> Vec<f64> {
     let span = libm::log(to / from);
     let intervals = (span / SPACING).ceil().clamp(INTERVALS[0], INTERVALS[1]);
@@ -268,7 +276,8 @@ fn grid([from, to]: [f64; 2]) -> Vec<f64> {
     std::iter::once(from).chain(inner).chain([to]).collect()
 }
 
-/// Returns the maximum of the parabola through three points, or the middle value if the parabola has no maximum.
+/// Returns the largest value of the parabola through three points, or the middle value if the parabola has no
+/// maximum.
 fn summit(points: &[[f64; 2]; 3]) -> f64 {
     let [[x0, y0], [x1, y1], [x2, y2]] = *points;
     let (left, right) = ((y1 - y0) / (x1 - x0), (y2 - y1) / (x2 - x1));
@@ -283,13 +292,13 @@ const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
 /// Search for a maximum between two bounds.
 ///
-/// Steps go to the vertex of the parabola through the three best points, as long as the steps shrink fast enough. Other
-/// steps are golden sections (Brent, Algorithms for Minimization without Derivatives, 1973, chapter 5). Missing values
-/// are minus infinity.
+/// A step goes to the vertex of the parabola through the three best points, as long as the steps shrink fast
+/// enough. All other steps are golden-section steps (Brent, Algorithms for Minimization without Derivatives,
+/// 1973, chapter 5). If a position has no value, its value is minus infinity.
 #[derive(Clone, Debug)]
 pub(super) struct Maximum {
     bounds: [f64; 2],
-    /// The best, second best and third best point: position and value.
+    /// The position and the value of the best, the second best and the third best point.
     best: [[f64; 2]; 3],
     /// The latest step of the search, and the step before the latest step.
     steps: [f64; 2],
@@ -297,10 +306,10 @@ pub(super) struct Maximum {
 }
 
 impl Maximum {
-    /// Returns a search from three points `[place, value]` in ascending order. The middle one of the three points has
-    /// the highest value.
+    /// Returns a search that begins with three points `[place, value]` in ascending order of their places.
+    /// The middle point has the highest value.
     ///
-    /// At an end of the search range, the best point is the first or the last of the three points.
+    /// At an end of the search range, the middle point is equal to the first or the last of the three points.
     pub(super) fn new(points: [[f64; 2]; 3], tolerance: f64) -> Maximum {
         let [low, top, high] = points;
         let [second, third] = if low[1] > high[1] { [low, high] } else { [high, low] };
@@ -309,12 +318,13 @@ impl Maximum {
         Maximum { bounds, best: [top, second, third], steps: [width; 2], tolerance: tolerance / 3.0 }
     }
 
-    /// Returns the best point so far: position and value.
+    /// Returns the position and the value of the best point so far.
     pub(super) fn best(&self) -> [f64; 2] {
         self.best[0]
     }
 
-    /// Returns the position for the next evaluation; `None` if the best point is within the tolerance of the maximum.
+    /// Returns the next position to evaluate, or `None` if the best point is within the tolerance of the
+    /// maximum.
     pub(super) fn next(&mut self) -> Option<f64> {
         let [a, b] = self.bounds;
         let x = self.best[0][0];
@@ -371,8 +381,8 @@ impl Maximum {
 mod tests {
     use super::*;
 
-    /// Returns the position of the maximum and the number of evaluations, beginning with points at the ends and at
-    /// `top`.
+    /// Returns the position of the maximum and the number of evaluations. The search begins with the three
+    /// positions `places`.
     fn search(f: impl Fn(f64) -> f64, places: [f64; 3], tolerance: f64) -> (f64, u32) {
         let mut maximum = Maximum::new(places.map(|place| [place, f(place)]), tolerance);
         let mut values = 0;

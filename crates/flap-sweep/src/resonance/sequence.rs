@@ -1,6 +1,6 @@
-//! Computations that wait for rows. The rows of earlier points determine the next points.
+//! Computations in which the rows of earlier points determine the next points.
 //!
-//! Many computations are open at once, so the lanes stay full while each computation waits for its own rows.
+//! Many computations run at the same time, so that no lane is empty while a computation waits for its rows.
 
 use std::cell::Cell;
 use std::convert::Infallible;
@@ -13,7 +13,8 @@ use std::task::{Context, Poll, Waker};
 use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 
-/// Exchange between a computation, which stores points, and its driver, which stores the rows of the points.
+/// Connection between a computation and the code that runs its points. The computation stores points in the
+/// exchange, and the code stores their rows.
 #[derive(Default)]
 pub struct Exchange {
     points: Cell<Vec<Point>>,
@@ -21,7 +22,8 @@ pub struct Exchange {
 }
 
 impl Exchange {
-    /// For the computation: runs points with any indices, and returns their rows in the order of the points.
+    /// A computation calls this function to run points. The function waits for the rows of the points, and
+    /// returns the rows in the order of the points. The points can have any indices.
     pub async fn rows(&self, points: Vec<Point>) -> Vec<Row> {
         if points.is_empty() {
             return Vec::new();
@@ -31,21 +33,23 @@ impl Exchange {
     }
 }
 
-/// A computation with the result `T` that waits for rows.
+/// A computation that waits for the rows of its points, and finally returns a result of the type `T`.
 pub struct Sequence<'a, T> {
     exchange: Rc<Exchange>,
     work: Pin<Box<dyn Future<Output = T> + 'a>>,
 }
 
 impl<'a, T> Sequence<'a, T> {
-    /// Returns a computation. `work` begins the computation, which runs its points with the given exchange.
+    /// Returns the computation that `work` creates. The computation runs its points with the exchange that
+    /// `work` receives.
     pub fn new<F: Future<Output = T> + 'a>(work: impl FnOnce(Rc<Exchange>) -> F) -> Sequence<'a, T> {
         let exchange = Rc::new(Exchange::default());
         let work = Box::pin(work(Rc::clone(&exchange)));
         Sequence { exchange, work }
     }
 
-    /// Continues the computation to its next points, which must be run, or to its result.
+    /// Continues the computation until it ends or requires the rows of further points. Returns its result or
+    /// these points.
     fn next(&mut self) -> ControlFlow<T, Vec<Point>> {
         match self.work.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
             Poll::Ready(result) => Break(result),
@@ -53,10 +57,10 @@ impl<'a, T> Sequence<'a, T> {
         }
     }
 
-    /// Runs the computation with the rows that `run` returns for points.
+    /// Runs the whole computation. The function `run` must return the rows of the points that it receives.
     ///
     /// # Errors
-    /// The first error of `run`.
+    /// Returns the first error of `run`.
     pub fn run<E>(mut self, mut run: impl FnMut(Vec<Point>) -> Result<Vec<Row>, E>) -> Result<T, E> {
         loop {
             match self.next() {
@@ -66,8 +70,8 @@ impl<'a, T> Sequence<'a, T> {
         }
     }
 
-    /// Runs the computation on scalars, with the same bits as [`run_all`]. The points have the settings of `run`, but
-    /// their own values.
+    /// Runs the computation on scalars. The result is the same as the result of [`run_all`], bit for bit. The
+    /// points are run with the settings of `run`, but with their own parameter values.
     pub fn run_alone(self, rows: &dyn Rows, run: &PointRun<'_>) -> T {
         let row = |point: &Point| {
             rows.run_point(&PointRun { values: &point.values, ..*run }, point.begin.as_deref())
@@ -84,17 +88,19 @@ pub trait SequenceSource<'a> {
 
     /// Returns the next computation, or `None` if no computation is available at present.
     ///
-    /// If `idle` is true, nothing is running: the call may wait, and `None` means that there are no more computations.
+    /// If `idle` is true, no point is being run, so the call may wait for a computation. In this case, `None`
+    /// means that there are no further computations.
     fn next(&mut self, idle: bool) -> Option<Sequence<'a, Self::Output>>;
 
     /// Receives the result of a computation.
     fn done(&mut self, result: Self::Output);
 
-    /// Returns true to end at once, see [`Jobs::interrupted`]. Open computations are discarded.
+    /// Returns true if the run must end at once, as [`Jobs::interrupted`] does. Unfinished computations are
+    /// then discarded.
     fn interrupted(&self) -> bool;
 }
 
-/// Largest number of open computations without a point to run.
+/// Largest number of computations that are unfinished at the same time.
 const MOST_OPEN: usize = 256;
 
 /// Runs the computations of `source` on the lanes of `backend` until no computations are left.
@@ -107,24 +113,25 @@ pub fn run_all<'a>(
     rows.run(backend, solver, &mut Interleaved { source, open: Vec::new() });
 }
 
-/// The points of open computations as one stream.
+/// Passes the points of all unfinished computations to the simulator, as one stream of points.
 struct Interleaved<'s, 'a, S: SequenceSource<'a>> {
     source: &'s mut S,
     open: Vec<Option<Open<'a, S::Output>>>,
 }
 
-/// A computation whose points wait or are running.
+/// An unfinished computation, whose points wait or are being run.
 struct Open<'a, T> {
     sequence: Sequence<'a, T>,
-    /// Points that have not begun, with the next point last, each with its index among the points of the computation.
+    /// Points that are not being run yet, in reverse order. Each point has its index in the latest list of
+    /// points from the computation.
     waiting: Vec<(usize, Point)>,
-    /// Rows of the points that were received so far.
+    /// Row of each point, or `None` if the row has not been received.
     rows: Vec<Option<Row>>,
     missing: usize,
 }
 
 impl<'a, T> Open<'a, T> {
-    /// Returns the computation with its next points, or its result.
+    /// Continues a computation. Returns the computation with its next points, or its result if it has ended.
     fn begin(mut sequence: Sequence<'a, T>) -> ControlFlow<T, Open<'a, T>> {
         let points = match sequence.next() {
             Continue(points) => points,
@@ -136,11 +143,12 @@ impl<'a, T> Open<'a, T> {
     }
 }
 
-/// Distance between the indices of computations: each computation begins at a multiple of this number.
+/// The point indices of each computation begin at a multiple of this number, so that an index shows the
+/// computation of a point.
 const STRIDE: u64 = 1 << 32;
 
 impl<'a, S: SequenceSource<'a>> Interleaved<'_, 'a, S> {
-    /// Returns a point that can begin now.
+    /// Returns a point of an unfinished computation that is not being run yet.
     fn waiting(&mut self) -> Option<Point> {
         for (slot, open) in (0_u64..).zip(&mut self.open) {
             if let Some((place, point)) = open.as_mut().and_then(|open| open.waiting.pop()) {
@@ -151,7 +159,7 @@ impl<'a, S: SequenceSource<'a>> Interleaved<'_, 'a, S> {
         None
     }
 
-    /// Opens another computation. Returns false if no computation is available at present.
+    /// Begins another computation. Returns false if no computation is available at present.
     fn open_another(&mut self, idle: bool) -> bool {
         loop {
             let Some(sequence) = self.source.next(idle) else { return false };

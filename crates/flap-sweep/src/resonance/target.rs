@@ -1,18 +1,18 @@
-//! Target of a search for a resonance: range of the drive frequency, and quantity to maximise.
+//! The target of a search for a resonance: the range of the drive frequency, and the quantity to maximise.
 
 use flap_core::parameter::{Invalid, Parameter};
 use flap_core::simulate::{Simulator, Unfinished};
 
 use crate::notation::text;
 
-/// Quantity to maximise at a resonance.
+/// The quantity that is largest at the resonance.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Objective {
     /// The stroke.
     Stroke,
     /// The mean lift.
     Lift,
-    /// Mean lift divided by mean electrical power.
+    /// The mean lift divided by the mean electrical power.
     Efficiency,
 }
 
@@ -20,15 +20,15 @@ impl Objective {
     /// All objectives, in the order of [`Objective::NAMES`].
     pub const ALL: [Objective; 3] = [Objective::Stroke, Objective::Lift, Objective::Efficiency];
 
-    /// Names in grid files.
+    /// Names of the objectives in grid files.
     pub const NAMES: [&'static str; 3] = ["stroke", "lift", "efficiency"];
 
-    /// Returns the name in grid files.
+    /// Returns the name of the objective in grid files.
     pub fn name(self) -> &'static str {
         Objective::NAMES[self as usize]
     }
 
-    /// Returns the column with the quantity.
+    /// Returns the name of the column that contains the quantity.
     pub(super) fn column(self) -> &'static str {
         match self {
             Objective::Stroke => "stroke_amplitude_deg",
@@ -43,11 +43,13 @@ impl Objective {
 pub struct Range {
     /// Quantity to maximise.
     pub of: Objective,
-    /// Lowest drive frequency (Hz); half of the design's lower natural frequency if `None`.
+    /// Lowest drive frequency (Hz). If `None`, the search begins at half of the design's lower natural
+    /// frequency.
     pub from: Option<f64>,
-    /// Highest drive frequency (Hz); one and a half times the design's upper natural frequency if `None`.
+    /// Highest drive frequency (Hz). If `None`, the search ends at 1.5 times the design's upper natural
+    /// frequency.
     pub to: Option<f64>,
-    /// Largest error of the frequency (Hz); must be more than zero.
+    /// Largest allowed error of the resonance frequency (Hz), which must be more than zero.
     pub tolerance: f64,
 }
 
@@ -57,23 +59,23 @@ impl Default for Range {
     }
 }
 
-/// Name of the parameter that the search varies.
+/// Name of the parameter that the search for a resonance varies.
 pub const DRIVE_FREQUENCY: &str = "drive_frequency";
 
-/// Quantity of a model to maximise, and the range of the search.
+/// The model whose resonance is searched, the quantity to maximise, and the range of the search.
 #[derive(Clone)]
 pub(super) struct Target {
     pub(super) model: &'static dyn Simulator,
     pub(super) range: Range,
-    /// Index of the drive frequency in the parameters.
+    /// Index of the drive frequency among the parameters of the model.
     pub(super) frequency: usize,
-    /// Index of the maximised quantity in the columns.
+    /// Index of the quantity to maximise among the columns of the model.
     pub(super) objective: usize,
 }
 
 impl Target {
-    /// Returns the target for designs of `model`; `None` if the model has no drive frequency or does not measure the
-    /// objective.
+    /// Returns the target for designs of `model`. If the model has no drive frequency or does not measure the
+    /// objective, returns `None`.
     pub(super) fn new(model: &'static dyn Simulator, range: Range) -> Option<Target> {
         let [frequency, objective] = places(model, range.of)?;
         Some(Target { model, range, frequency, objective })
@@ -107,22 +109,23 @@ impl Target {
     }
 }
 
-/// Returns the index of the drive frequency in the parameters of a model, and of the objective in its columns; `None`
-/// if one is missing.
+/// Returns the index of the drive frequency among the parameters of a model, and the index of the objective
+/// among its columns. If one of them is missing, returns `None`.
 pub(super) fn places(model: &dyn Simulator, of: Objective) -> Option<[usize; 2]> {
     let frequency = model.parameters().iter().position(|parameter| parameter.name == DRIVE_FREQUENCY)?;
     let objective = model.columns().iter().position(|column| column.name == of.column())?;
     Some([frequency, objective])
 }
 
-/// Returns true if the stroke of a point is prescribed, and therefore equal at every frequency.
+/// Returns true if the stroke of a point is prescribed, so that it is the same at every drive frequency.
 pub(super) fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) -> bool {
     parameters.iter().zip(values).any(|(parameter, &value)| {
         parameter.name == "stroke_mode" && text::option(parameter, value) == Some("prescribed")
     })
 }
 
-/// Returns the error of a prescribed stroke. `end` is the last part of the error message.
+/// Returns the error that a point with a prescribed stroke causes. `end` is the last part of the error
+/// message.
 pub(super) fn prescribed(end: &str) -> Invalid {
     Invalid::new(format!("stroke_mode is \"prescribed\": the stroke is the same at every frequency, {end}"))
 }

@@ -21,8 +21,7 @@ use crate::plan::{PointsFile, Source};
 /// probably wrong.
 const MOST_CELLS: usize = 10;
 
-/// Largest allowed number of bytes in a line of the file. A typical line of headings or numbers is much
-/// shorter.
+/// Largest allowed number of bytes in a line of the file. A typical line is much shorter than this limit.
 const LONGEST_LINE: usize = 1 << 20;
 
 /// Returns the points in the file that the section `[sample]` names.

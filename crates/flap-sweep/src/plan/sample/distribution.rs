@@ -18,7 +18,7 @@ pub enum Distribution {
     LogUniform {
         /// One end of the distribution.
         from: f64,
-        /// Other end.
+        /// The other end of the distribution.
         to: f64,
     },
     /// Normal distribution, truncated at finite bounds.
@@ -27,9 +27,9 @@ pub enum Distribution {
         mean: f64,
         /// Standard deviation before truncation.
         sd: f64,
-        /// Smallest value; may be infinite.
+        /// Smallest value, which may be minus infinity.
         from: f64,
-        /// Largest value; may be infinite.
+        /// Largest value, which may be infinity.
         to: f64,
     },
 }
@@ -58,7 +58,8 @@ impl Distribution {
         }
     }
 
-    /// Returns false if a truncated normal distribution has no probability between its bounds, to rounding.
+    /// Returns false for a truncated normal distribution whose probability between its bounds is zero in
+    /// double precision.
     pub fn is_possible(&self) -> bool {
         match self {
             Distribution::Normal { mean, sd, from, to } => {
@@ -74,15 +75,15 @@ fn between(from: f64, to: f64, u: f64) -> f64 {
     from + (to - from) * u
 }
 
-/// Returns the fraction of the standard normal distribution below `z`.
+/// Returns the probability of values below `z` in the standard normal distribution.
 pub(super) fn cumulative(z: f64) -> f64 {
     0.5 * libm::erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
 /// Returns the value below which the fraction `p` of the standard normal distribution lies, to about 16 digits.
 ///
-/// Wichura, "The percentage points of the normal distribution", Applied Statistics 37, 477 (1988), algorithm AS 241,
-/// function PPND16.
+/// The algorithm is AS 241, function PPND16, of Wichura, "The percentage points of the normal distribution",
+/// Applied Statistics 37, 477 (1988).
 pub(crate) fn quantile(p: f64) -> f64 {
     let q = p - 0.5;
     if q.abs() <= 0.425 {
@@ -95,13 +96,13 @@ pub(crate) fn quantile(p: f64) -> f64 {
     if q < 0.0 { -size } else { size }
 }
 
-/// Returns the quotient of two polynomials, with coefficients from the constant upwards.
+/// Returns the quotient of two polynomials. The coefficients are in the order of rising powers of `x`.
 fn ratio([above, below]: &[[f64; 8]; 2], x: f64) -> f64 {
     let polynomial = |coefficients: &[f64; 8]| coefficients.iter().rev().fold(0.0, |sum, c| sum * x + c);
     polynomial(above) / polynomial(below)
 }
 
-/// Coefficients for `p` within 0.425 of the median.
+/// Coefficients for probabilities `p` from 0.075 to 0.925.
 const CENTRE: [[f64; 8]; 2] = [
     [
         3.387_132_872_796_366_608,
@@ -125,7 +126,7 @@ const CENTRE: [[f64; 8]; 2] = [
     ],
 ];
 
-/// Coefficients for the tails of the normal distribution, down to fractions of about 1e-11.
+/// Coefficients for the tails of the normal distribution, down to probabilities of about 1e-11.
 const NEAR: [[f64; 8]; 2] = [
     [
         1.423_437_110_749_683_577_34,

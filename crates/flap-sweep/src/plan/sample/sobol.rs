@@ -10,19 +10,21 @@ pub(super) struct Sobol {
 }
 
 impl Sobol {
-    /// Returns dimension number `dimension`, from 0, scrambled with the given key.
+    /// Returns dimension number `dimension` of the sequence, counted from 0. The points are scrambled with
+    /// `key`.
     pub(super) fn new(dimension: usize, key: u64) -> Sobol {
         // The upper half; its bits are as random as the lower ones.
         let key = u32::try_from(key >> 32).unwrap_or(0);
         Sobol { directions: directions(dimension), key }
     }
 
-    /// Returns the coordinate of point number `index`, which must be less than 2^32: more than 0 and less than 1.
+    /// Returns the coordinate of point number `index`, which is more than 0 and less than 1. `index` must be
+    /// less than 2^32.
     pub(super) fn coordinate(&self, index: u64) -> f64 {
         (f64::from(scrambled(self.plain(index), self.key)) + 0.5) / (1_u64 << BITS) as f64
     }
 
-    /// Returns the digits of the sequence before scrambling.
+    /// Returns the binary digits of a coordinate before scrambling.
     ///
     /// Points have the order of Antonov and Saleev, in which consecutive points differ by one direction number.
     pub(super) fn plain(&self, index: u64) -> u32 {
@@ -32,8 +34,8 @@ impl Sobol {
     }
 }
 
-/// Returns the direction numbers of a dimension as binary fractions, by the recurrence of Sobol'; Bratley and Fox
-/// (1988), Eq. (2).
+/// Returns the direction numbers of a dimension as binary fractions. The recurrence is Eq. (2) of Bratley and
+/// Fox (1988).
 fn directions(dimension: usize) -> [u32; BITS] {
     let mut directions = [0; BITS];
     let Some((polynomial, first)) = dimension.checked_sub(1).and_then(|index| DIRECTIONS.get(index)) else {
@@ -54,8 +56,8 @@ fn directions(dimension: usize) -> [u32; BITS] {
     directions
 }
 
-/// Returns digits with Owen's nested uniform scrambling by a hash: each binary digit is flipped depending on the
-/// digits before it.
+/// Scrambles binary digits by Owen's nested uniform scrambling: a hash of the earlier digits determines if a
+/// digit is flipped.
 ///
 /// The hash is by Laine and Karras with Vegdahl's constants, as in Burley, "Practical Hash-based Owen Scrambling", JCGT
 /// 9(4) (2020). In this hash, each bit depends on lower bits only, so the order of the bits is reversed before and
@@ -72,9 +74,9 @@ fn scrambled(digits: u32, key: u32) -> u32 {
 
 /// Primitive polynomials and first direction numbers of the second and later dimensions.
 ///
-/// A polynomial over the field of two elements is given by its coefficients as bits, from the highest power to the
-/// constant. The direction numbers m1, m2 and so on follow. The number of direction numbers is the degree of the
-/// polynomial.
+/// The first number contains the coefficients of a polynomial over the field of two elements as bits, from
+/// the highest power to the constant. The list contains the direction numbers m1, m2 and so on. The number of
+/// direction numbers is the degree of the polynomial.
 #[rustfmt::skip]
 pub(super) const DIRECTIONS: [(u32, &[u32]); 127] = [
     (3, &[1]), (7, &[1, 3]), (11, &[1, 3, 1]), (13, &[1, 1, 1]), (19, &[1, 1, 3, 3]), (25, &[1, 3, 5, 13]),

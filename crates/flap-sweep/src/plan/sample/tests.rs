@@ -9,7 +9,8 @@ fn coordinates(sample: &SamplePoints, dimension: usize) -> Vec<f64> {
     (0..sample.count()).map(|index| sample.coordinate(index, dimension)).collect()
 }
 
-/// Digits times 2^32 by `scipy.stats.qmc.Sobol(128, scramble=False, bits=32)`, SciPy 1.17.1.
+/// The expected numbers are coordinates times 2^32 from `scipy.stats.qmc.Sobol(128, scramble=False, bits=32)`
+/// of SciPy 1.17.1.
 #[test]
 fn sobol_points_before_scrambling_are_those_of_scipy() {
     const DIMENSIONS: [usize; 6] = [1, 2, 3, 10, 64, 128];
@@ -31,8 +32,9 @@ fn sobol_points_before_scrambling_are_those_of_scipy() {
     }
 }
 
-/// Each of 2^k equal intervals contains one of the first 2^k points, along every dimension. Each of 2^k equal boxes
-/// over the first two dimensions also contains one point. Scrambling preserves this property.
+/// Each of 2^k equal intervals contains one of the first 2^k points, along every dimension. Each of 2^k equal
+/// boxes over the first two dimensions also contains one point. Scrambling preserves this even distribution
+/// of the points.
 #[test]
 fn scrambled_sobol_points_are_as_even_as_plain_ones() {
     let sample = sample(Method::Sobol, 1 << 32, 128);
@@ -83,7 +85,8 @@ fn each_interval_of_a_latin_hypercube_has_one_point() {
     }
 }
 
-/// The order of the points among the intervals is random: all orders of three occur about equally often.
+/// The points of a Latin hypercube are in random order: for three points, all six orders occur about equally
+/// often.
 #[test]
 fn latin_hypercubes_are_shuffled_fairly() {
     let mut counts = std::collections::BTreeMap::new();
@@ -97,7 +100,7 @@ fn latin_hypercubes_are_shuffled_fairly() {
     assert!(counts.values().all(|count| (count - 1000).abs() < 116), "{counts:?}");
 }
 
-/// Dimensions of a sample are independent.
+/// The coordinates along different dimensions of a sample are not correlated.
 #[test]
 fn dimensions_are_independent() {
     for method in [Method::Sobol, Method::LatinHypercube, Method::Random] {
@@ -143,7 +146,8 @@ fn the_ends_are_never_met() {
     }
 }
 
-/// Returns mean and standard deviation of a large even sample.
+/// Returns the mean and the standard deviation of 100 000 quantiles of `distribution` at equal distances of
+/// probability.
 fn moments(distribution: &Distribution) -> (f64, f64) {
     let count = 100_000;
     let values = (0..count).map(|i| distribution.quantile((f64::from(i) + 0.5) / f64::from(count)));
@@ -177,7 +181,7 @@ fn distributions_have_their_moments() {
     }
 }
 
-/// `scipy.stats.norm.ppf` and `truncnorm.ppf`, SciPy 1.17.1.
+/// The expected numbers are from `scipy.stats.norm.ppf` and `truncnorm.ppf` of SciPy 1.17.1.
 #[test]
 fn normal_quantiles() {
     let cases = [
