@@ -102,7 +102,7 @@ pub fn meaning(of: &str, unit: &str, by: &str, per: Per) -> String {
 
 /// A parameter value counts as small if it is less than this fraction of the largest published value.
 ///
-/// The fraction is not larger because some robots are far smaller than the published robots.
+/// The fraction is small, because some robots are far smaller than the published robots.
 const SMALL: f64 = 1e-3;
 
 /// Returns the reference size of a parameter in SI units: a change of one per cent is one per cent of this

@@ -107,7 +107,7 @@ pub fn beginning(source: impl Read, most: u64) -> Result<Vec<u8>, InputError> {
     Ok(bytes)
 }
 
-/// Converts bytes that [`beginning`] returned to text.
+/// Converts the bytes from [`beginning`] to text.
 ///
 /// # Errors
 /// [`InputError`] if there are more than `most` bytes, or the bytes are not text.

@@ -25,8 +25,8 @@ pub(super) struct Placed {
 
 /// Reads the axes of the section `[axes]`.
 ///
-/// If the values of a parameter are wrong, its axis has no values, so that later checks can still use the
-/// axis.
+/// If the values of an axis are wrong, the function returns the axis without values, so that later checks can
+/// use the axis.
 pub(super) fn read(entry: Option<&Entry<'_>>, lookup: &mut Lookup<'_>) -> Vec<Placed> {
     let mut axes = Vec::new();
     for entry in entry.map(|entry| table::section(entry, lookup.problems)).unwrap_or_default() {

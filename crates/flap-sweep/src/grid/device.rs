@@ -30,7 +30,8 @@ pub(super) struct Base {
     /// Parameters whose values have units in the file.
     pub(super) with_units: WithUnits,
     pub(super) uncertainty: Uncertainty,
-    /// The device that the grid file names, then the device on which this device is based, and so on.
+    /// The devices of the design: the device that the grid file names, the device on which this device is
+    /// based, and so on.
     pub(super) devices: Vec<Source>,
 }
 
@@ -51,7 +52,7 @@ impl Reader<'_> {
     }
 
     /// Returns the design that a grid file or a device describes. `chain` contains the paths of the devices
-    /// that were read before, each of which names the next device.
+    /// that were read before this file. Each device in `chain` is based on the next device.
     fn of_file(self, root: &[Entry<'_>], chain: &mut Vec<PathBuf>, problems: &mut Problems) -> Option<Base> {
         check_description(root, problems);
         let Some(entry) = table::find(root, "device") else {

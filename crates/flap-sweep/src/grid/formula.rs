@@ -62,8 +62,8 @@ impl Names<'_> {
         Parameter::index(self.parameters, name)
     }
 
-    /// Returns the index of the parameter that stores the value of parameter number `index`. A parameter of
-    /// one wing that is not set has the value of the parameter of all wings.
+    /// Returns the index of the parameter whose value applies to parameter number `index`. A parameter of one
+    /// wing that is not set has the value of the parameter of all wings.
     pub(super) fn standing(&self, index: usize) -> usize {
         let shared = of_all_wings(self.parameters, index).filter(|_| self.unset[index].is_some());
         shared.unwrap_or(index)
@@ -337,8 +337,8 @@ fn order(dependencies: &[Vec<usize>]) -> Vec<usize> {
     }
 }
 
-/// Reports each cycle of formulas that depend on themselves once. `order` contains the formulas that depend
-/// on no cycle.
+/// Reports formulas that depend on themselves, once for each cycle of formulas. `order` contains the formulas
+/// that depend on no cycle.
 fn report_cycles(
     dependencies: &[Vec<usize>],
     order: &[usize],

@@ -101,8 +101,8 @@ fn is_wing(parameters: &[Parameter], name: &str) -> bool {
     parameters.iter().any(|known| known.name.strip_suffix("_position_x") == Some(name))
 }
 
-/// Returns true if `name` is a name for the phase of the drive, of all wings, of one wing, or as a left-right
-/// difference.
+/// Returns true if `name` means a phase of the drive: of all wings, of one wing, or a left-right difference
+/// of phases.
 fn is_phase(parameters: &[Parameter], name: &str) -> bool {
     let Some(first) = name.strip_suffix("phase_difference").or(name.strip_suffix("phase")) else {
         return false;

@@ -21,8 +21,8 @@ pub(super) fn sets_resonance(entry: &Entry<'_>) -> bool {
     entry.key == DRIVE_FREQUENCY && entry.value.get_ref().as_str() == Some(WORD)
 }
 
-/// If the section `[params]` requests rows at the resonance of each design, returns the source of these rows.
-/// In this case, the function sets the drive frequency in `base` to [`Value::Resonance`].
+/// If the section `[params]` requests rows at the resonance of each design, returns the object that computes
+/// these rows. In this case, the function sets the drive frequency in `base` to [`Value::Resonance`].
 pub(super) fn read(
     root: &[Entry<'_>],
     simulator: &'static dyn Simulator,

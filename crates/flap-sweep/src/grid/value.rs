@@ -49,8 +49,7 @@ fn report(parameter: &Parameter, error: &ValueError, value: &Value<'_>, problems
     }
 }
 
-/// Keys after which tables contain numbers: tables for a value with a standard error, a range or a
-/// distribution.
+/// Keys whose values are numbers, in the table of a value with a standard error, a range or a distribution.
 const NUMBERS: [&str; 4] = ["value", "from", "to", "mean"];
 
 /// Returns true if all numbers in a value, list, range or distribution have units. If there are no numbers,

@@ -67,14 +67,14 @@ pub(super) struct VehicleSettings {
 const TOTAL_MASS: &str = "total_mass";
 
 impl VehicleSettings {
-    /// Adds the messages about drive frequencies that resulted from another design with the same section
-    /// `[vehicle]`.
+    /// Adds the messages about drive frequencies that reading the same section `[vehicle]` with another
+    /// design gave.
     pub(super) fn append(&mut self, other: VehicleSettings) {
         self.frequencies.extend(other.frequencies);
     }
 
-    /// If the section `[vehicle]` requests rows at hover or with the damping matrix, returns the source of
-    /// these rows.
+    /// If the section `[vehicle]` requests rows at hover or with the damping matrix, returns the object that
+    /// computes these rows.
     ///
     /// `is_set` returns true for a parameter with a value. `varied` contains the parameters of axes, and
     /// `derived` contains the parameters that formulas determine.

@@ -18,9 +18,9 @@ const HEAD: &str = "\
 # Parameters that are not listed here have the values of the preset.
 ";
 
-/// Returns the text of a device file that contains the values of a plan before its axes change these values.
-/// If the plan has several designs, the text contains the values of the first design. Derived parameters have
-/// the values of their formulas.
+/// Returns the text of a device file with the values that the parameters of a plan have if no axis varies
+/// them. If the plan has several designs, the text contains the values of the first design. Derived
+/// parameters have the values of their formulas.
 ///
 /// Every parameter has a comment with the description and the range of the parameter. If flap reads the text
 /// again, the numbers are the same, bit for bit.
@@ -113,8 +113,8 @@ fn comment(parameter: &Parameter) -> String {
     wrapped(&format!("{} [{}]", parameter.doc, facts.join("; ")))
 }
 
-/// Returns `text` as a comment in lines of at most [`WIDTH`] characters. Only a word that is longer than a
-/// line exceeds this width.
+/// Returns `text` as a comment in lines of at most [`WIDTH`] characters. A line is longer only if it consists
+/// of one long word.
 fn wrapped(text: &str) -> String {
     let mut page = String::new();
     let mut line = "#".to_owned();

@@ -58,8 +58,8 @@ pub enum Values {
         mean: f64,
         /// Standard deviation of the distribution.
         sd: f64,
-        /// Weights of the independent normal numbers whose sum gives the value. The normal numbers are from
-        /// the first dimensions of the sample, and the sum of the squared weights is 1.
+        /// Weights of the independent normal numbers whose sum gives the value. The normal numbers are
+        /// computed from the first dimensions of the sample, and the sum of the squared weights is 1.
         weights: Vec<f64>,
     },
 }
@@ -159,8 +159,8 @@ pub struct Axis {
 }
 
 impl Axis {
-    /// Returns an axis along which the given parameters vary. A parameter is an index into the model's
-    /// parameter table, with the values of the parameter.
+    /// Returns an axis along which the given parameters vary. Each item of `parameters` is an index into the
+    /// model's parameter table, with the values of the parameter.
     pub fn new(parameters: Vec<(usize, Values)>) -> Axis {
         Axis { parameters }
     }

@@ -75,8 +75,8 @@ pub enum ChangeError {
     Solver(&'static str),
 }
 
-/// Returns the solver settings with the relative tolerance `rtol`. If `atol` or `accuracy` has its default
-/// for the earlier relative tolerance, it gets its default for the new relative tolerance.
+/// Returns the solver settings with the relative tolerance `rtol`. If `atol` or `accuracy` has a default
+/// value, the function replaces this value by the default for the new relative tolerance.
 pub fn with_rtol(settings: SolverSettings, rtol: f64) -> SolverSettings {
     let (usual, next) = (settings.with_rtol(settings.rtol), settings.with_rtol(rtol));
     let follow = |given: f64, usual: f64, next: f64| if given == usual { next } else { given };
@@ -340,8 +340,8 @@ impl Plan {
     }
 
     /// Returns the plan of one point, in which no parameter is varied or derived. `values` contains the value
-    /// of each parameter. If a value is NaN, the parameter keeps its value in the plan. A changed value has
-    /// no standard error.
+    /// of each parameter. If a value is NaN, the parameter keeps the value that it has in the plan. A changed
+    /// value has no standard error.
     #[must_use]
     pub fn of_point(mut self, values: &[f64]) -> Plan {
         for (parameter, value) in values.iter().enumerate().filter(|(_, value)| !value.is_nan()) {
@@ -359,16 +359,16 @@ impl Plan {
         self.with_new_axes()
     }
 
-    /// Returns the plan without the search for hover and without the damping matrix. The inputs of each row
-    /// are the values of its point.
+    /// Returns the plan without the search for hover and without the damping matrix. The inputs of the
+    /// vehicle then have the values that the points contain.
     #[must_use]
     pub(crate) fn without_hover(mut self) -> Plan {
         self.space.body = None;
         self.with_new_axes()
     }
 
-    /// Returns the plan after a change of its axes: the plan runs all its points. A refinement of the plan is
-    /// removed, because the refinement refers to the earlier axes.
+    /// Returns the plan with all its points selected, for use after a change of the axes. A refinement of the
+    /// plan is removed, because the refinement refers to the earlier axes.
     fn with_new_axes(self) -> Plan {
         Plan { selection: Selection::All, ..self.without_refinement() }
     }

@@ -15,9 +15,8 @@ use crate::notation::expression::of_choice;
 #[derive(Clone)]
 pub struct Robot {
     wings: Wings,
-    /// Parameters of a plan with several designs, which include the index of the design as the last
-    /// parameter. The simulator ignores this index, because each point contains the parameter values of its
-    /// design.
+    /// Parameters of a plan with several designs. The last parameter is the index of the design. The
+    /// simulator ignores this index, because each point contains the parameter values of its design.
     designs: Option<Arc<Table>>,
 }
 
@@ -86,8 +85,8 @@ impl Robot {
 const DEVICE_DOC: &str = "Device of the design: the name of its file, without folder and ending.";
 const PRESET_DOC: &str = "Preset of the design.";
 
-/// Dereferences to the model or vehicle. Its parameters do not include the parameter that names the design,
-/// in contrast to [`Robot::parameters`].
+/// Dereferences to the model or vehicle. In contrast to [`Robot::parameters`], the parameters of the model or
+/// vehicle do not include the parameter that names the design.
 impl Deref for Robot {
     type Target = dyn Simulator;
 

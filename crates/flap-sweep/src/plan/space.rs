@@ -48,13 +48,15 @@ pub struct Plan {
 pub(crate) struct Space {
     /// The simulator that computes the points.
     pub(crate) robot: Robot,
-    /// Source of rows at the resonance, if each design is run at its own resonance.
+    /// The object that computes rows at the resonance, if each design is run at its own resonance.
     pub(crate) resonance: Option<AtResonance>,
-    /// Source of rows at hover or with the damping matrix, if the grid file requests such rows.
+    /// The object that computes rows at hover or with the damping matrix, if the grid file requests such
+    /// rows.
     pub(crate) body: Option<BodyRows>,
     /// Name of the preset.
     pub(crate) preset: &'static str,
-    /// Value that each parameter has before the axes change it, from the preset, the device or `[params]`.
+    /// Value that each parameter has if no axis varies the parameter, from the preset, the device or
+    /// `[params]`.
     pub(crate) base: Vec<Value>,
     /// Parameters whose values have units in the file, in `[params]` or along an axis.
     pub(crate) with_units: WithUnits,
@@ -84,7 +86,8 @@ pub(crate) struct Space {
     pub(crate) solver: SolverSettings,
     /// Path and columns of the results file.
     pub(crate) output: Output,
-    /// Parameters of all wings that the grid sets or varies, although each wing has its own value.
+    /// Parameters of all wings that the grid file sets or varies without effect, because each wing has its
+    /// own value of the parameter.
     pub(crate) unreached: Vec<&'static Parameter<'static>>,
     /// Name and text of the grid file, which are recorded with the results.
     pub(crate) source: Source,
@@ -108,8 +111,8 @@ impl Plan {
         &self.space.robot
     }
 
-    /// Returns the model, or the vehicle if the points are vehicles. In contrast to [`Plan::parameters`], its
-    /// parameters do not include the parameter that names the design.
+    /// Returns the model, or the vehicle if the points are vehicles. In contrast to [`Plan::parameters`], the
+    /// parameters of the model or vehicle do not include the parameter that names the design.
     pub fn simulator(&self) -> &dyn Simulator {
         &**self.robot()
     }
@@ -125,12 +128,12 @@ impl Plan {
         self.robot().parameters()
     }
 
-    /// Returns the source of rows at the resonance, if each design is run at its own resonance.
+    /// Returns the object that computes rows at the resonance, if each design is run at its own resonance.
     pub fn resonance(&self) -> Option<&AtResonance> {
         self.space.resonance.as_ref()
     }
 
-    /// Returns the source of rows at hover or with the damping matrix, if the plan has such rows.
+    /// Returns the object that computes rows at hover or with the damping matrix, if the plan has such rows.
     pub fn body(&self) -> Option<&BodyRows> {
         self.space.body.as_ref()
     }
@@ -155,8 +158,8 @@ impl Plan {
         self.space.preset
     }
 
-    /// Returns the value that each parameter has before the axes change it, from the preset, the device or
-    /// `[params]`.
+    /// Returns the value that each parameter has if no axis varies the parameter, from the preset, the device
+    /// or `[params]`.
     pub fn base(&self) -> &[Value] {
         &self.space.base
     }
@@ -350,8 +353,8 @@ impl Plan {
         }
     }
 
-    /// Returns the index of the parameter that stores the value of `parameter`. A parameter of one wing that
-    /// is not set has the value of the parameter of all wings.
+    /// Returns the index of the parameter whose value applies to `parameter`. A parameter of one wing that is
+    /// not set has the value of the parameter of all wings.
     pub(crate) fn standing(&self, parameter: usize) -> usize {
         let shared = of_all_wings(self.parameters(), parameter).filter(|_| self.unset(parameter).is_some());
         shared.unwrap_or(parameter)

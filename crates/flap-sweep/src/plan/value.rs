@@ -1,11 +1,10 @@
-//! Values of parameters before the axes of a plan change them, and the set of parameters whose values have
-//! units.
+//! Values that parameters have if no axis varies them, and the set of parameters whose values have units.
 
 use std::collections::BTreeSet;
 
 use flap_core::parameter::{Kind, Parameter, Preset};
 
-/// Value of a parameter before the axes of a plan change it.
+/// Value that a parameter has if no axis varies the parameter.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value {
     /// A number in SI units, or the index of an option.
@@ -34,7 +33,7 @@ impl Value {
         values.map(value).collect()
     }
 
-    /// Returns the number of [`Value::Given`]. For all other values, returns `None`.
+    /// Returns the number in [`Value::Given`]. For all other values, returns `None`.
     pub fn given(self) -> Option<f64> {
         match self {
             Value::Given(value) => Some(value),

@@ -9,8 +9,8 @@ pub(super) struct Tolerance {
     pub(super) range: f64,
 }
 
-/// Largest usual ratio between the errors of two neighbouring parabolas. If the ratio is larger, only one of
-/// the two parabolas contains a jump or a kink.
+/// For a smooth measure, the errors of two neighbouring parabolas usually differ by at most this factor. If
+/// they differ by a larger factor, only one of the two parabolas contains a jump or a kink.
 const MOST_APART: f64 = 8.0;
 
 /// An edge of a box, with the nearest points on the line through the edge.
@@ -18,7 +18,8 @@ pub(super) struct Edge {
     pub(super) before: Option<Sample>,
     pub(super) ends: [Sample; 2],
     pub(super) after: Option<Sample>,
-    /// True if the edge connects two neighbouring values of the axis, without points between them.
+    /// True if the box has not been halved along the edge, so that the edge connects two neighbouring values
+    /// of the axis.
     pub(super) is_whole: bool,
 }
 
@@ -32,12 +33,12 @@ impl Edge {
     /// For a parabola through both ends and a neighbouring point, the error of linear interpolation at the
     /// middle of the edge is h² f″/8. There is one such parabola for each of the two neighbouring points, and
     /// the estimate is the mean of their errors. Beside a jump or a kink, only one of the two parabolas
-    /// contains the jump or kink. The larger error therefore counts as at most [`MOST_APART`] times the
-    /// smaller error. If the edge connects two neighbouring values of the axis, the estimate is the larger
-    /// error, because no point between them is known.
+    /// contains the jump or kink. The larger of the two parabolas' errors therefore counts as at most
+    /// [`MOST_APART`] times the smaller error. If the edge connects two neighbouring values of the axis, the
+    /// estimate is the larger error, because the box has no point between them.
     ///
-    /// If the measure changes more than twice as much along the edge as beside it, the measure may have a
-    /// jump. In this case, the estimate is half of the change.
+    /// If the measure changes more than twice as much along the edge as beside the edge, the measure may have
+    /// a jump. In this case, the estimate is half of the change.
     pub(super) fn error(&self, tolerance: &Tolerance) -> f64 {
         if tolerance.error > 0.0 { self.size(tolerance.range) / tolerance.error } else { 0.0 }
     }

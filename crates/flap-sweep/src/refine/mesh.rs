@@ -50,7 +50,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    /// Returns the place with the new position `to` along one axis.
+    /// Returns a copy of the place with the position `to` along one axis.
     fn moved(&self, axis: usize, to: u64) -> Place {
         let mut place = self.clone();
         place.at[axis] = to;
@@ -78,27 +78,28 @@ pub(super) struct Mesh {
     /// Index of the point at each place, in the order in which points were added.
     numbers: HashMap<Place, usize>,
     /// For each axis of the mesh, the lines of points that are parallel to the axis. The key of a line is the
-    /// place on the line at position 0. A line contains the index of each point by the position of the point
-    /// along the axis.
+    /// place on the line at position 0. A line maps the position of each point along the axis to the index of
+    /// the point.
     lines: Vec<HashMap<Place, BTreeMap<u64, usize>>>,
     cells: Vec<Cell>,
 }
 
 /// A box that is to be halved.
 struct Halving {
-    /// Estimated error of the box times the geometric mean of its side lengths.
+    /// Estimated error of the box times the geometric mean of its side lengths. Boxes with the largest gain
+    /// are halved first.
     ///
-    /// If the gain were the error alone, all points would be added at jumps, where halving does not decrease
-    /// the error. If the gain were the error times the volume, the mean error would decrease fast, but the
-    /// largest error would decrease slowly.
+    /// If boxes were halved in the order of the error alone, all points would be added at jumps, where
+    /// halving does not decrease the error. If boxes were halved in the order of the error times the volume,
+    /// the largest error would decrease slowly.
     gain: f64,
     cell: usize,
     axis: usize,
 }
 
 impl Mesh {
-    /// Returns a mesh with a box between all neighbouring values of the axes. The boxes exist once for each
-    /// of the `maps` combinations of values of the axes along which no points are added.
+    /// Returns a mesh with a box between all neighbouring values of the axes. There is a separate set of
+    /// boxes for each of the `maps` combinations of values of the other axes.
     pub(super) fn new(sides: Vec<Side>, maps: u64, most: u32, measures: usize) -> Mesh {
         let mut corners: Vec<Vec<u64>> = vec![Vec::new()];
         for side in &sides {

@@ -25,7 +25,7 @@ use crate::table::layout::Layout;
 use estimate::Tolerance;
 use mesh::{Mesh, Place, Side};
 
-/// A refinement in progress. It stores the measures of the rows so far, and chooses the next points.
+/// A refinement that has not ended, with the measures of the rows so far.
 #[derive(Clone, Debug)]
 pub struct Refinement {
     refine: Refine,
@@ -122,7 +122,7 @@ impl Refinement {
         limits.map(tolerance).collect()
     }
 
-    /// Returns the place in the mesh of point number `index` of the axes.
+    /// Returns the place that point number `index` has in the mesh.
     fn place(&self, index: u64) -> Place {
         let mut place = Place { map: 0, at: vec![0; self.refine.along.len()] };
         let (mut rest, mut maps) = (index, 1);
@@ -166,8 +166,8 @@ fn side(axis: &Axis) -> Side {
     }
 }
 
-/// Repeats the refinement of an interrupted run up to the first `done` points. Returns the plan with the
-/// points of all rounds that had begun, and the refinement at this point of the run.
+/// Repeats the refinement of an interrupted run from its written rows. Returns the plan with the points of
+/// all rounds that had begun, and the state of the refinement after the first `done` points.
 ///
 /// `rows` contains the written rows of the plan, in the order of the points.
 ///

@@ -1,4 +1,4 @@
-//! Searches the drive frequencies at which the settled stroke of one design is largest. The module also
+//! Searches for the drive frequencies at which the settled stroke of one design is largest. The module also
 //! checks the size of an impulse for free motions.
 
 use std::f64::consts::PI;
@@ -49,11 +49,11 @@ pub struct Gap {
     pub to: f64,
     /// Number of frequencies in the interval that were run.
     pub points: usize,
-    /// Status of the motion at all frequencies of the gap.
+    /// Status of the motion, which is the same at all frequencies of the interval.
     pub status: Status,
 }
 
-/// Computes the drive frequencies at which the stroke of a design point is largest.
+/// Searches for the drive frequencies at which the stroke of a design has its highest peaks.
 ///
 /// The stroke and the pitch of each peak are measured on the motion that begins at rest. The field `range.of`
 /// is ignored. `update` computes the values that depend on the drive frequency, and returns the reason if a
@@ -61,8 +61,8 @@ pub struct Gap {
 ///
 /// # Errors
 /// - [`Unfinished::Interrupted`] if the search is interrupted.
-/// - [`Unfinished::Invalid`] if the parameter values contradict each other, or no search is possible with the
-///   range, stroke or model.
+/// - [`Unfinished::Invalid`] if the parameter values are impossible, or if the range, the stroke mode or the
+///   model allows no search.
 pub fn search(
     model: &'static dyn Simulator,
     run: &PointRun<'_>,

@@ -64,8 +64,8 @@ fn columns(model: &dyn Simulator, of: Objective) -> Vec<Column> {
 }
 
 impl AtResonance {
-    /// Returns the source of rows at the resonance of each design of `model`. If the model has no drive
-    /// frequency or does not measure the objective, returns `None`.
+    /// Returns an object that computes rows at the resonance of each design of `model`. If the model has no
+    /// drive frequency or does not measure the objective, returns `None`.
     pub fn new(model: &'static dyn Simulator, range: Range) -> Option<AtResonance> {
         Some(AtResonance { target: Target::new(model, range)?, columns: columns(model, range.of) })
     }

@@ -1,4 +1,4 @@
-//! Searches the resonance of one design.
+//! Searches for the resonance of one design.
 //!
 //! First, the search runs points on a grid of frequencies, from which it selects the highest peaks. Then
 //! [`Maximum`] locates these peaks accurately. In this second step, each point begins at the orbit of its
@@ -28,8 +28,8 @@ const MOST_TOPS: usize = 4;
 /// rest.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Peaks {
-    /// A peak is located accurately if its estimated height is lower than the highest peak by at most this
-    /// fraction.
+    /// A peak is located accurately if its estimated height is below the height of the highest peak by at
+    /// most this fraction.
     contender: f64,
     /// Number of the highest peaks whose points are computed again from rest.
     from_rest: usize,
@@ -40,7 +40,7 @@ impl Peaks {
     /// grid.
     pub(super) const HIGHEST: Peaks = Peaks { contender: 0.15, from_rest: 1 };
 
-    /// Locates all peaks, up to [`MOST_TOPS`].
+    /// Locates all peaks, but at most [`MOST_TOPS`] peaks.
     pub(super) const ALL: Peaks = Peaks { contender: 1.0, from_rest: MOST_TOPS };
 }
 
@@ -294,7 +294,7 @@ const GOLDEN: f64 = 0.381_966_011_250_105_1;
 ///
 /// A step goes to the vertex of the parabola through the three best points, as long as the steps shrink fast
 /// enough. All other steps are golden-section steps (Brent, Algorithms for Minimization without Derivatives,
-/// 1973, chapter 5). If a position has no value, its value is minus infinity.
+/// 1973, chapter 5). If the value at a position cannot be computed, it counts as minus infinity.
 #[derive(Clone, Debug)]
 pub(super) struct Maximum {
     bounds: [f64; 2],

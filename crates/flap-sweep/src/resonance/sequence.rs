@@ -48,8 +48,8 @@ impl<'a, T> Sequence<'a, T> {
         Sequence { exchange, work }
     }
 
-    /// Continues the computation until it ends or requires the rows of further points. Returns its result or
-    /// these points.
+    /// Continues the computation until it ends or requires the rows of further points. Returns the result of
+    /// the computation, or the points whose rows it requires.
     fn next(&mut self) -> ControlFlow<T, Vec<Point>> {
         match self.work.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
             Poll::Ready(result) => Break(result),
@@ -122,8 +122,8 @@ struct Interleaved<'s, 'a, S: SequenceSource<'a>> {
 /// An unfinished computation, whose points wait or are being run.
 struct Open<'a, T> {
     sequence: Sequence<'a, T>,
-    /// Points that are not being run yet, in reverse order. Each point has its index in the latest list of
-    /// points from the computation.
+    /// Points that are not being run yet, in reverse order. Each point has its index in the list of points
+    /// that the computation returned last.
     waiting: Vec<(usize, Point)>,
     /// Row of each point, or `None` if the row has not been received.
     rows: Vec<Option<Row>>,
@@ -143,8 +143,8 @@ impl<'a, T> Open<'a, T> {
     }
 }
 
-/// The point indices of each computation begin at a multiple of this number, so that an index shows the
-/// computation of a point.
+/// The point indices of each computation begin at a multiple of this number, so that the index of a point
+/// identifies the computation.
 const STRIDE: u64 = 1 << 32;
 
 impl<'a, S: SequenceSource<'a>> Interleaved<'_, 'a, S> {

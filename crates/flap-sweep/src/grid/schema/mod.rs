@@ -75,8 +75,9 @@ fn either(section: &str, models: &[&'static dyn Simulator]) -> Value {
 
 /// Returns a JSON schema that applies the rules of a model if the grid file names a preset of this model.
 ///
-/// If a grid file starts from a device, the schema does not show the preset of the device. If `only` is true,
-/// such a grid file has the rules of the first model in `models`.
+/// If a grid file starts from a device, its preset is in another file, and the schema cannot check the
+/// preset. If `only` is true, a grid file that starts from a device has the rules of the first model in
+/// `models`.
 fn by_preset(models: &[&'static dyn Simulator], only: bool) -> Value {
     let begins = json!({"if": {"required": ["device"]}, "else": {"required": ["preset"]}});
     let Some((model, others)) = models.split_first() else { return begins };

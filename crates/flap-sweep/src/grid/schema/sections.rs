@@ -54,8 +54,8 @@ pub(super) fn list(description: &str, items: &Value) -> Value {
     json!({"description": description, "type": "array", "items": items, "minItems": 1, "uniqueItems": true})
 }
 
-/// Returns a JSON schema that accepts one value or a list of values. `one` and `list` are the schemas of
-/// these two forms.
+/// Returns a JSON schema that accepts one value or a list of values. `one` is the schema of one value, and
+/// `list` is the schema of the list.
 fn one_or_more(description: &str, one: &Value, list: &Value) -> Value {
     json!({"description": description, "anyOf": [one, list]})
 }

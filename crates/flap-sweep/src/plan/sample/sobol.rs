@@ -74,9 +74,9 @@ fn scrambled(digits: u32, key: u32) -> u32 {
 
 /// Primitive polynomials and first direction numbers of the second and later dimensions.
 ///
-/// The first number contains the coefficients of a polynomial over the field of two elements as bits, from
-/// the highest power to the constant. The list contains the direction numbers m1, m2 and so on. The number of
-/// direction numbers is the degree of the polynomial.
+/// The first item of a pair contains the coefficients of a polynomial over the field of two elements. Each
+/// coefficient is one bit, from the highest power to the constant. The second item of a pair contains the
+/// direction numbers m1, m2 and so on. The number of direction numbers is the degree of the polynomial.
 #[rustfmt::skip]
 pub(super) const DIRECTIONS: [(u32, &[u32]); 127] = [
     (3, &[1]), (7, &[1, 3]), (11, &[1, 3, 1]), (13, &[1, 1, 1]), (19, &[1, 1, 3, 3]), (25, &[1, 3, 5, 13]),

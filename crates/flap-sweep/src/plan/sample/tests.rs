@@ -146,8 +146,8 @@ fn the_ends_are_never_met() {
     }
 }
 
-/// Returns the mean and the standard deviation of 100 000 quantiles of `distribution` at equal distances of
-/// probability.
+/// Returns the mean and the standard deviation of 100 000 quantiles of `distribution` at equally spaced
+/// probabilities.
 fn moments(distribution: &Distribution) -> (f64, f64) {
     let count = 100_000;
     let values = (0..count).map(|i| distribution.quantile((f64::from(i) + 0.5) / f64::from(count)));
