@@ -25,7 +25,8 @@ pub(crate) fn print(effort: Effort) {
          The integration loop marches the equations of `examples/own_equations` at rtol 1e-6, with a point in every lane.\n\
          The peak rate is the rate of a loop of fused multiplications and additions in ten independent registers.\n\
          The integration loop and the peak loop run in turn.\n\
-         The program counts the executed instructions by single steps, and reads the kind of each instruction from a disassembly.\n\
+         The program executes the integration loop one instruction at a time and counts the instructions.\n\
+         The kind of each instruction comes from a disassembly of the program.\n\
          Each count is a number of instructions for one right-hand side.\n\
          The lanes of one right-hand side fill two registers.\n\
          Counts also include the instructions of an integration step that do not belong to the right-hand side.\n\

@@ -33,7 +33,7 @@ If a statement depends on a number that the paper leaves out, the table has one 
 All computations use the tolerance [`rtol`](../glossary.md#rtol) = 1e-7.
 All motions are [settled](../glossary.md#settled), except motions after an impulse and motions during a frequency sweep.
 Computed frequency responses have steps of 1 Hz or less.
-In the column *published*, the word *drawn* means that the paper gives no number.
+In the column *published*, the word *drawn* means that the paper gives no number, for example only a curve in a figure.
 
 A fixed rule computes each verdict from the published number and the computed number:
 

@@ -57,7 +57,7 @@ pub(crate) const PAPER: Paper = Paper {
         Group {
             title: "Split cycle and hinge",
             preface: "Gravish and Wood study one wing with half strokes of different durations, in simulation and experiment.\n\
-                      In the rows of this section, the second harmonic has 0.2 times the amplitude of the drive and leads by 90°.",
+                      In the rows of this section, the second harmonic has 0.2 times the amplitude of the drive and a phase of 90°.",
             quick: true,
             claims: hinge::claims,
         },
@@ -75,7 +75,7 @@ pub(crate) const PAPER: Paper = Paper {
         Group {
             title: "Damping of the body's motion",
             preface: "Two simulators of flapping-wing robots contain constants for the damping of the body's motion by the wings.\n\
-                      The wings, the drive and the lift of the robot in the wind tunnel are not known.\n\
+                      Robofly_simulator contains constants from a wind tunnel, but the wings, the drive and the lift of the tested robot are not known.\n\
                       For the comparison with Robofly_simulator, the vehicle has the preset `jafferis2016` at 140 V and 120 Hz.\n\
                       For the comparison with robobee_simulator, the vehicle has the preset `jafferis2016-improved` at 165 V and 155 Hz.\n\
                       The wings are 2 mm left and right of the middle, and 3 mm above the centre of mass.",
