@@ -1,4 +1,5 @@
-//! Initial states from Python: states at the start of a drive period.
+//! Converts the initial states that a Python user gives. An initial state is the state at the start of a
+//! drive period.
 
 use flap_core::simulate::Simulator;
 use flap_sweep::table::labels::split_unit;
@@ -11,10 +12,11 @@ use pyo3::types::PyDict;
 use crate::parameters::did_you_mean;
 use crate::{convert, error};
 
-/// Returns the state with these components: numbers in the unit of the name, or text with a unit. Other components are zero.
+/// Returns the state vector for a dictionary of components. A component is a number in the unit of its name,
+/// or text with a unit. Components that are not given are zero.
 ///
-/// The name of a component is the name of its state with the unit (`pitch_rad`, in rad), without it (`pitch`, also in rad), or
-/// with `deg` instead of `rad`.
+/// The name of a component ends with its unit, as in `pitch_rad` and `pitch_deg`. A component without a unit
+/// in its name, such as `pitch`, is in the unit of the state (rad).
 pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult<Vec<f64>> {
     let Ok(begin) = begin.cast::<PyDict>() else {
         let found = begin.get_type().name()?;
@@ -42,8 +44,8 @@ pub(crate) fn state(model: &dyn Simulator, begin: &Bound<'_, PyAny>) -> PyResult
     Ok(values)
 }
 
-/// Returns the states in the rows of an array. The state is `None` for a row with an unknown component, which is NaN.
-/// `ValueError` for an infinite component.
+/// Returns one initial state for each row of an array. The initial state is `None` if a component in the row
+/// is NaN. An infinite component is a `ValueError`.
 pub(crate) fn rows(begin: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Option<Vec<f64>>>> {
     let state = |(number, row): (usize, ArrayView1<'_, f64>)| {
         if row.iter().any(|y| y.is_infinite()) {
@@ -55,7 +57,8 @@ pub(crate) fn rows(begin: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Option<Vec
     begin.as_array().rows().into_iter().enumerate().map(state).collect()
 }
 
-/// Returns the index of a component among the states, and the factor from the unit of its name to the unit of the state.
+/// Returns the index of the component `name` in the state vector, and the factor that converts the unit of
+/// the name to the unit of the state.
 fn component(states: &[String], name: &str) -> PyResult<(usize, f64)> {
     for (index, state) in states.iter().enumerate() {
         let (words, unit) = split_unit(state);

@@ -20,7 +20,7 @@ enum Data {
     Number(Vec<f64>),
     /// Flags: 1 for true, 0 for false, -1 for unknown.
     Flag(Vec<i8>),
-    /// For each row, the index of the row's word, and the list of words.
+    /// Text: for each row, the index of a word in the list of words, and the list of words.
     Text(Vec<u32>, Vec<String>),
 }
 
@@ -34,7 +34,7 @@ impl Data {
         }
     }
 
-    /// Adds a cell, which must be of the column's kind.
+    /// Adds a cell, which must have the same kind as the column.
     fn push(&mut self, cell: Cell) {
         match (self, cell) {
             (Data::Whole(cells), Cell::Whole(cell)) => cells.push(cell),
@@ -53,7 +53,7 @@ impl Data {
     }
 }
 
-/// Returns a column without a meaning. The end of the name determines the unit.
+/// Returns a column with an empty description. The unit of the column is the unit at the end of its name.
 pub(crate) fn named(name: &str, kind: CellKind) -> Column {
     Column { name: name.to_owned(), unit: split_unit(name).1.into(), kind, doc: String::new() }
 }
@@ -68,15 +68,15 @@ impl Columns {
         Columns { columns: columns.collect() }
     }
 
-    /// Adds a row of one cell per column.
+    /// Adds a row, which has one cell per column.
     pub(crate) fn push(&mut self, cells: &[Cell]) {
         for ((_, data), cell) in self.columns.iter_mut().zip(cells) {
             data.push(*cell);
         }
     }
 
-    /// Adds a row of a file. If a cell does not have the kind of its column, returns the name of the column as an
-    /// error.
+    /// Adds a row whose cells are texts from a file. If the text of a cell does not have the kind of its
+    /// column, returns the name of the column as an error.
     pub(crate) fn push_record<'a>(&mut self, cells: impl Iterator<Item = &'a str>) -> Result<(), &str> {
         for ((column, data), text) in self.columns.iter_mut().zip(cells) {
             data.push(Cell::parse(column.kind, text).ok_or(column.name.as_str())?);
@@ -84,10 +84,11 @@ impl Columns {
         Ok(())
     }
 
-    /// Returns a dictionary of columns by name. A column is a tuple of unit, meaning, cells (an array) and words.
+    /// Returns a dictionary of columns by name. Each column is a tuple of unit, description, cells (an array)
+    /// and words.
     ///
-    /// The cells of a column of text are indices of its words. Other columns have None in place of words. Arrays of flags
-    /// have 1, 0, and -1 for unknown.
+    /// The cells of a text column are indices into the list of words. Columns of numbers and flags have None
+    /// instead of a list of words. Arrays of flags contain 1 for true, 0 for false and -1 for unknown.
     pub(crate) fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
         let dict = PyDict::new(py);
         for (Column { name, unit, doc, .. }, data) in self.columns {

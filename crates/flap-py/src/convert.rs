@@ -9,10 +9,11 @@ use pyo3::types::{PyBool, PyString};
 
 use crate::error;
 
-/// Returns a finite number from any type that Python's `float` accepts, except text and truth values.
+/// Returns a finite number from any type that Python's `float` accepts, except text and `bool`.
 ///
-/// `TypeError` if `value` has another type, or if reading `value` raises an exception. The message contains the name
-/// `name` and the required type `wanted`. `ValueError` if the number is infinite, not a number, or too large.
+/// Returns a `TypeError` if `value` has another type, or if reading `value` raises an exception. The message
+/// contains the name `name` and the required type `wanted`. Returns a `ValueError` if the number is infinite,
+/// not a number, or too large.
 pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     if value.is_instance_of::<PyBool>() {
         return Err(wrong_type(name, wanted, value));
@@ -34,18 +35,19 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
     }
 }
 
-/// Returns the size of an impulse (rad) from a number in rad or text with a unit. An impulse of more than half a turn
-/// is a `ValueError`; other errors are the errors of [`quantity`].
+/// Returns the size of an impulse (rad) from a number in rad or text with a unit. An impulse of more than
+/// half a turn is a `ValueError`. All other errors are those of the function [`quantity`].
 pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let amplitude = quantity(name, "rad", true, value)?;
     resonance::impulse(amplitude)
         .map_err(|error| error::with_help(format!("`{name}` is too large: {error}"), error.help))
 }
 
-/// Returns a number in `unit` from a number or text with a unit. If `takes_text` is false, text is an error, because
-/// `name` contains the unit.
+/// Converts a number, or text with a unit, to a number in `unit`. If `takes_text` is false, text is an error,
+/// because the unit is already a part of `name`.
 ///
-/// `TypeError` or `ValueError` as for [`number`]; `ValueError` for text that is not such a quantity.
+/// Returns the same errors as [`number`], and a `ValueError` for text that is not a quantity with the kind of
+/// unit in `unit`.
 pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     match value.cast::<PyString>() {
         Ok(text) if takes_text => {
@@ -56,7 +58,8 @@ pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'
     }
 }
 
-/// Returns a whole number from 1 to the largest `u32`. `TypeError` for another type, `ValueError` for another number.
+/// Returns a whole number from 1 to the largest `u32`. A value of another type is a `TypeError`, and a number
+/// outside of this range is a `ValueError`.
 pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
     let wanted = "a whole number";
     if value.is_instance_of::<PyBool>() {
@@ -88,8 +91,9 @@ pub(crate) fn too_large(name: &str) -> PyErr {
     PyValueError::new_err(format!("`{name}` is too large for a 64-bit float\nthe largest is {:e}", f64::MAX))
 }
 
-/// Returns the `TypeError` for an object that raised `error` while it was read. `error` is the cause of the
-/// `TypeError`. Exceptions that are not errors, such as `KeyboardInterrupt`, are returned unchanged.
+/// Returns the `TypeError` for an object that raised the exception `error` when flap read the object. The
+/// cause of the `TypeError` is `error`. Exceptions such as `KeyboardInterrupt`, which are not subclasses of
+/// Python's `Exception`, are returned unchanged.
 pub(crate) fn failed(name: &str, wanted: &str, value: &Bound<'_, PyAny>, error: PyErr) -> PyErr {
     let py = value.py();
     if !error.is_instance_of::<PyException>(py) {

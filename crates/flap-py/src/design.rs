@@ -1,4 +1,4 @@
-//! Designs and keywords, the arguments of most calls.
+//! Converts the design and the keyword arguments of a Python call to a plan.
 
 use flap_core::simulate;
 
@@ -11,13 +11,15 @@ use pyo3::types::PyDict;
 use crate::solver::{Keyword, Keywords};
 use crate::{grid, parameters};
 
-/// Returns the plan of a design (see [`grid::plan`]) with the values of keywords.
+/// Returns the plan of a design (see [`grid::plan`]). Keyword arguments replace parameters and solver
+/// settings of the plan.
 pub(crate) fn plan(design: &Bound<'_, PyAny>, keywords: Option<&Bound<'_, PyDict>>) -> PyResult<Plan> {
     let (solver, keywords) = Keywords::take(keywords)?;
     Ok(set(with_solver(grid::plan(design)?, &solver)?, &keywords)?.0)
 }
 
-/// Returns the plan as [`plan`] does, or the plan of a model if the keywords give all of its parameters.
+/// Returns the same plan as [`plan`]. The design can also be the name of a model if the keyword arguments
+/// give all parameters of the model.
 pub(crate) fn whole(design: &Bound<'_, PyAny>, keywords: &Bound<'_, PyDict>) -> PyResult<Plan> {
     match plan_of_model(design, Some(keywords))? {
         Some((plan, set)) => alone(plan, &set),
@@ -25,7 +27,8 @@ pub(crate) fn whole(design: &Bound<'_, PyAny>, keywords: &Bound<'_, PyDict>) -> 
     }
 }
 
-/// Returns the plan of a model without its preset, in which these parameters are set.
+/// Returns a plan that does not use the values of a preset. If a required parameter is not in `set`, the
+/// result is a `ValueError`.
 pub(crate) fn alone(plan: Plan, set: &[usize]) -> PyResult<Plan> {
     let model = plan.simulator().name();
     plan.without_preset(set).map_err(|error| match error {
@@ -37,9 +40,11 @@ pub(crate) fn alone(plan: Plan, set: &[usize]) -> PyResult<Plan> {
     })
 }
 
-/// Returns the plan of a model with the values of keywords, and the parameters that the keywords set.
+/// Returns the plan of a model with the values of keyword arguments, and the indices of the parameters that
+/// keyword arguments set.
 ///
-/// Returns `None` if no model has the given name. Other parameters have the values of a preset.
+/// Returns `None` if `design` is not the name of a model. Parameters that are not set have the values of a
+/// preset.
 pub(crate) fn plan_of_model(
     design: &Bound<'_, PyAny>,
     keywords: Option<&Bound<'_, PyDict>>,
@@ -53,7 +58,7 @@ pub(crate) fn plan_of_model(
     set(with_solver(plan, &solver)?, &keywords).map(Some)
 }
 
-/// Returns an error if the plan is a vehicle, for calls that simulate one wing.
+/// Returns an error if the plan describes a vehicle. Calls that simulate only one wing use this check.
 pub(crate) fn check_one_wing(plan: &Plan) -> PyResult<()> {
     let Some(vehicle) = plan.vehicle() else { return Ok(()) };
     let wings = text::count(vehicle.mounts().len() as u64, "wing");
@@ -63,14 +68,15 @@ pub(crate) fn check_one_wing(plan: &Plan) -> PyResult<()> {
     )))
 }
 
-/// Returns the plan with the solver settings of keywords, which override the plan's settings.
+/// Returns the plan after the solver settings in `keywords` have replaced the settings of the plan.
 fn with_solver(plan: Plan, keywords: &Keywords<'_>) -> PyResult<Plan> {
     let mut settings = *plan.solver();
     keywords.apply(&mut settings)?;
     plan.with_solver(settings).map_err(|error| PyValueError::new_err(error.to_string()))
 }
 
-/// Returns the plan with parameters of all points set to the values of keywords, and the indices of these parameters.
+/// Sets parameters of all points to the values of keyword arguments. Returns the changed plan and the indices
+/// of these parameters.
 fn set(mut plan: Plan, keywords: &[Keyword<'_>]) -> PyResult<(Plan, Vec<usize>)> {
     let mut indices = Vec::new();
     for (name, value) in keywords {
@@ -82,8 +88,8 @@ fn set(mut plan: Plan, keywords: &[Keyword<'_>]) -> PyResult<(Plan, Vec<usize>)>
     Ok((plan, indices))
 }
 
-/// Returns the exception for a change that a plan rejects. `given` describes the parameter in the message, for example
-/// "set here".
+/// Returns the exception for a change of a plan that is not allowed. In the message, the text `given` follows
+/// the name of the parameter, for example "set here".
 pub(crate) fn refused(given: &str, error: &ChangeError) -> PyErr {
     PyValueError::new_err(match error {
         ChangeError::Varied(name) | ChangeError::Derived(name) => {

@@ -34,7 +34,8 @@ pub(crate) struct Diagnostic {
 
 #[pymethods]
 impl Diagnostic {
-    /// Returns the arguments from which `pickle` restores the object: a cluster sends errors between processes.
+    /// Returns the arguments from which `pickle` restores the object. Workers of a cluster send errors to
+    /// other processes as pickles.
     fn __getnewargs__(&self) -> (&str, usize, usize, usize, usize, &str, Vec<String>, Vec<String>) {
         let Diagnostic { file, line, column, start, end, message, notes, help } = self;
         (file, *line, *column, *start, *end, message, notes.clone(), help.clone())

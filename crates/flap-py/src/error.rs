@@ -31,7 +31,7 @@ create_exception!(
     "A grid with mistakes.\n\nThe text of the error shows every mistake with its lines, and `diagnostics` lists the mistakes."
 );
 
-/// Warns the user, with the line of the user's call.
+/// Shows a `UserWarning` for the line of the user's code that called flapwing.
 pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
     let level = py.import("flapwing._mistakes")?.call_method0("callers_level")?.extract()?;
     PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, level)
@@ -43,8 +43,8 @@ pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
     with_diagnostics(py, diagnostic::render(mistakes, false), diagnostics)
 }
 
-/// Returns a `GridError` for a dictionary that cannot be written as a grid file. A dictionary has no lines, so the
-/// error has no diagnostics.
+/// Returns a `GridError` for a dictionary that cannot be written as a grid file. Diagnostics refer to lines
+/// of a file, so this error has no diagnostics.
 pub(crate) fn no_grid(py: Python<'_>, message: &str) -> PyErr {
     with_diagnostics(py, message.to_owned(), Vec::new())
 }
@@ -57,7 +57,7 @@ fn with_diagnostics(py: Python<'_>, message: String, diagnostics: Vec<Diagnostic
     }
 }
 
-/// Returns the exception for a grid file without a plan.
+/// Returns the exception for a grid file that cannot be converted to a plan.
 pub(crate) fn grid_file(py: Python<'_>, error: &ReadError) -> PyErr {
     match error {
         ReadError::Grid(mistakes) => grid(py, mistakes),
@@ -94,7 +94,7 @@ pub(crate) fn with_help(message: impl Display, help: Option<impl Display>) -> Py
     PyValueError::new_err(format!("{message}{help}"))
 }
 
-/// Returns a `ValueError` for a motion that could not be computed. `reason` is the message.
+/// Returns a `ValueError` with the message `reason`, for a motion that could not be computed.
 pub(crate) fn unfinished(reason: &impl Display) -> PyErr {
     PyValueError::new_err(reason.to_string())
 }

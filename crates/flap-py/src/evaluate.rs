@@ -15,8 +15,9 @@ use crate::{begin, design, parameters};
 /// Return a batch of points as a grid that `sweep` and `part` run; see `flapwing.evaluate`.
 ///
 /// `columns` has a one-dimensional array of float64 or a list of text for each varied parameter, all of the same
-/// length. `initial_state` has one row of state components per point; a row of nan stands for a point that begins at
-/// rest. The text of the grid contains neither the columns nor the keywords, so a pickle does not contain the batch.
+/// length. `initial_state` has one row of state components per point. If a row contains nan, the point begins
+/// at rest. A pickle of the returned grid stores only the text of the grid, which contains neither the
+/// columns nor the keyword arguments.
 #[pyfunction]
 #[pyo3(signature = (
     design, columns, /, *, measures=None, gradient=None, initial_state=None, return_states=false, keywords=None
@@ -68,7 +69,8 @@ pub(crate) fn batch<'py>(
     Ok(Grid { plan })
 }
 
-/// Check that a design accepts `keywords` and has the measures `measures`. Mistakes raise the errors of `batch`.
+/// Check that a design accepts `keywords` and has the measures `measures`. A mistake raises the same
+/// exception as in `batch`.
 #[pyfunction]
 #[pyo3(signature = (design, /, *, keywords, measures=None))]
 pub(crate) fn check(
@@ -80,7 +82,8 @@ pub(crate) fn check(
     measures.map_or(Ok(()), |measures| with_columns(plan, &measures).map(drop))
 }
 
-/// Returns an error if a parameter is both a column and a keyword, because the column would replace the keyword.
+/// Returns an error if a parameter is given both as a column and as a keyword argument. Without this error,
+/// the keyword argument would have no effect.
 fn refuse_twice(columns: &Bound<'_, PyDict>, keywords: &Bound<'_, PyDict>) -> PyResult<()> {
     for name in keywords.keys() {
         if columns.contains(&name)? {
@@ -91,7 +94,7 @@ fn refuse_twice(columns: &Bound<'_, PyDict>, keywords: &Bound<'_, PyDict>) -> Py
     Ok(())
 }
 
-/// Returns the parameter and the values of a column.
+/// Returns the index of the parameter with the name of the column, and the values of the column in SI units.
 fn read(plan: &Plan, name: &str, column: &Bound<'_, PyAny>) -> PyResult<(usize, Vec<f64>)> {
     let index = parameters::index(plan.robot(), name)?;
     let parameter = &plan.parameters()[index];
@@ -104,7 +107,7 @@ fn read(plan: &Plan, name: &str, column: &Bound<'_, PyAny>) -> PyResult<(usize, 
     Ok((index, values.collect::<PyResult<_>>()?))
 }
 
-/// Returns the plan whose rows have only the given measures.
+/// Restricts the rows of a plan to the given measures, and returns the changed plan.
 fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
     let known: Vec<String> = plan.measured().map(str::to_owned).collect();
     plan.with_columns(names).map_err(|error| match error {
@@ -121,7 +124,7 @@ fn with_columns(plan: Plan, names: &[String]) -> PyResult<Plan> {
     })
 }
 
-/// Returns the plan whose rows have derivatives with respect to the given parameters.
+/// Adds derivatives with respect to the given parameters to the rows of a plan, and returns the changed plan.
 fn with_slopes(plan: Plan, names: &[String]) -> PyResult<Plan> {
     let mut by = Vec::with_capacity(names.len());
     for name in names {
@@ -145,7 +148,7 @@ fn with_slopes(plan: Plan, names: &[String]) -> PyResult<Plan> {
     })
 }
 
-/// Returns the exception for columns or initial states that a plan rejects.
+/// Returns the exception for columns or initial states that cannot be used with a plan.
 pub(crate) fn refused(error: &ChangeError) -> PyErr {
     match error {
         ChangeError::TooManyPoints(_) => PyValueError::new_err("too many points"),

@@ -80,13 +80,13 @@ pub(crate) fn fly<'py>(
     Ok(dict)
 }
 
-/// Returns names and meanings of force and torque.
+/// Returns the names and the descriptions of the columns of force and torque.
 fn vehicle_columns(chosen: &Chosen) -> Vec<(String, String)> {
     let columns = chosen.simulator().columns().iter();
     columns.map(|column| (column.name.clone(), column.doc.clone())).collect()
 }
 
-/// Returns the meaning of a column of the body's motion.
+/// Returns the description of a column of the body's motion.
 fn state_meaning(name: &str) -> String {
     let meaning = match name {
         "time_s" => "time since the beginning of the flight",

@@ -61,7 +61,8 @@ impl Grid {
         usize::try_from(self.plan.len()).map_err(|_| PyIndexError::new_err("too many points for len()"))
     }
 
-    /// Returns point number `index`: a dictionary of parameters in SI units or options. A slice returns a list of points.
+    /// Returns point number `index`: a dictionary of numbers in SI units and names of options. For a slice,
+    /// returns a list of such dictionaries.
     fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         if let Ok(slice) = index.cast::<PySlice>() {
             let length = isize::try_from(self.__len__()?).unwrap_or(isize::MAX);
@@ -194,7 +195,8 @@ impl Grid {
     }
 }
 
-/// Returns the plan of a preset by name, a path, a text, a dictionary or a grid.
+/// Returns the plan of a design: the name of a preset, a path, the text of a grid file, a dictionary or a
+/// grid.
 pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
     let py = source.py();
     if let Ok(grid) = source.cast::<Grid>() {
@@ -228,7 +230,7 @@ pub(crate) fn plan(source: &Bound<'_, PyAny>) -> PyResult<Plan> {
     with_warnings(py, plan)
 }
 
-/// Returns the plan, and warns about parameters of a vehicle without effect.
+/// Returns the plan, and warns about parameters of a vehicle that have no effect.
 fn with_warnings(py: Python<'_>, plan: Plan) -> PyResult<Plan> {
     plan.unreached().iter().try_for_each(|parameter| parameters::warn_unreached(py, parameter))?;
     Ok(plan)
@@ -239,7 +241,8 @@ pub(crate) fn of_preset(py: Python<'_>, preset: &str) -> PyResult<Plan> {
     parse(py, preset, &format!("preset = \"{preset}\"\n"))
 }
 
-/// Returns the name of a preset or a model; `None` if `design` is a path, the text of a grid, or not text.
+/// Returns `design` if it can be the name of a preset or a model. Returns `None` if `design` is a path, the
+/// text of a grid, or not text.
 pub(crate) fn name(design: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     let Ok(text) = design.cast::<PyString>() else { return Ok(None) };
     let text = text.to_cow()?;
@@ -247,7 +250,7 @@ pub(crate) fn name(design: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     Ok((!is_grid).then(|| text.into_owned()))
 }
 
-/// Returns the plan of a text that was read from the file `name`.
+/// Returns the plan of the text of a grid, which was read from the file `name`.
 pub(crate) fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {
     let plan =
         grid::parse(name, text, simulate::all()).map_err(|diagnostics| error::grid(py, &diagnostics))?;

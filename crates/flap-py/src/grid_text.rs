@@ -1,7 +1,8 @@
 //! Converts a dictionary to the text of a grid file, so that messages can show the lines of mistakes.
 //!
-//! Tables keep the order of the dictionary, because the last axis varies fastest. The user's objects may raise
-//! exceptions when they are read: [`convert::failed`] converts these exceptions to errors.
+//! Tables keep the order of the dictionary, because the order of the axes determines the order of the points.
+//! When flap reads a user's object, the object may raise an exception. [`convert::failed`] converts such an
+//! exception to a `TypeError`.
 
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
@@ -10,7 +11,7 @@ use toml::Value;
 
 use crate::{convert, error};
 
-/// Largest number of nested levels of dictionaries and lists. A grid file has about six.
+/// Largest number of nested levels of dictionaries and lists. A usual grid file has about six levels.
 const MOST_LEVELS: usize = 64;
 
 /// The types that an entry of a grid can have, as text for messages.
@@ -43,10 +44,11 @@ pub(crate) fn text_of(entries: &Bound<'_, PyDict>) -> PyResult<String> {
     Ok(head.concat())
 }
 
-/// Dictionaries of a list, each with the key of the list.
+/// Dictionaries that were found in lists. Each dictionary has the key of its list.
 type Blocks<'py> = Vec<(String, Bound<'py, PyDict>)>;
 
-/// Splits the entries of a table into lists of dictionaries, such as the wings of a vehicle, and all other entries.
+/// Separates the entries of a table that are lists of dictionaries, such as the wings of a vehicle, from all
+/// other entries.
 fn split<'py>(table: &Bound<'py, PyDict>) -> PyResult<(Bound<'py, PyDict>, Blocks<'py>)> {
     let (plain, mut blocks) = (PyDict::new(table.py()), Vec::new());
     for (key, value) in table {
@@ -61,14 +63,15 @@ fn split<'py>(table: &Bound<'py, PyDict>) -> PyResult<(Bound<'py, PyDict>, Block
     Ok((plain, blocks))
 }
 
-/// Returns the dictionaries of a list, if all items of the list are dictionaries.
+/// Returns the items of a list if all items are dictionaries, and `None` otherwise.
 fn dictionaries<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py, PyDict>>>> {
     let Ok(list) = value.cast::<PyList>() else { return Ok(None) };
     let items = list.iter().map(|item| dictionary(&item)).collect::<PyResult<Option<Vec<_>>>>()?;
     Ok(items.filter(|items| !items.is_empty()))
 }
 
-/// Returns a dictionary, a mapping, or a table of columns (a DataFrame, an Arrow table, a `Table`) as a dictionary.
+/// Converts a mapping, or a table with columns (a DataFrame, an Arrow table, a `Table`), to a dictionary.
+/// Returns `None` for other objects.
 pub(crate) fn dictionary<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
     if let Ok(dict) = value.cast::<PyDict>() {
         return Ok(Some(dict.clone()));
@@ -86,7 +89,8 @@ pub(crate) fn dictionary<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Boun
     columns(value).map_err(failed)
 }
 
-/// Returns the entries of a mapping or the columns of a table; `None` for other objects.
+/// Returns a dictionary of the entries of a mapping or the columns of a table. Returns `None` for other
+/// objects.
 fn columns<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
     let dict = PyDict::new(value.py());
     if let Ok(mapping) = value.cast::<PyMapping>() {
@@ -105,7 +109,7 @@ fn columns<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>
     Ok(None)
 }
 
-/// Returns the list of a range, an array, a Series or an Arrow column; `None` for other objects.
+/// Converts a range, an array, a Series or an Arrow column to a list. Returns `None` for other objects.
 fn listed<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>> {
     if value.is_instance_of::<PyRange>() {
         return Ok(Some(
@@ -144,7 +148,8 @@ fn name(key: &Bound<'_, PyAny>) -> PyResult<String> {
     Ok(Value::String(key.into_owned()).to_string())
 }
 
-/// Returns a value on one line; `level` is the number of levels of dictionaries and lists around it.
+/// Returns a value as one line of a grid file. `level` is the number of dictionaries and lists that contain
+/// the value.
 pub(crate) fn inline(value: &Bound<'_, PyAny>, place: &str, level: usize) -> PyResult<String> {
     if level > MOST_LEVELS {
         return Err(error::no_grid(value.py(), &too_deep(place)));
@@ -192,7 +197,7 @@ fn scalar(value: &Bound<'_, PyAny>, place: &str) -> PyResult<Value> {
     })
 }
 
-/// Returns the message for a dictionary or list at `place` with too many levels.
+/// Returns the error message for too many nested dictionaries or lists in the entry `place`.
 fn too_deep(place: &str) -> String {
     let first: Vec<&str> = place.split('.').take(4).collect();
     let dots = if first.len() < 4 { "" } else { "…" };

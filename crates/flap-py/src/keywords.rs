@@ -1,4 +1,4 @@
-//! Grids whose text contains the keywords of a call.
+//! Writes the keyword arguments of a call into the text of a grid.
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -37,7 +37,7 @@ pub(crate) fn with_keywords(
     Ok(Grid { plan: grid::parse(py, &source.name, &document.to_string())? })
 }
 
-/// Sets an entry of a table. Other entries, comments and the order of tables stay.
+/// Sets an entry of a table. All other entries, the comments and the order of tables do not change.
 fn set(document: &mut DocumentMut, table: &str, name: &str, value: &Bound<'_, PyAny>) -> PyResult<()> {
     let value: Value = grid_text::inline(value, name, 1)?.parse().map_err(|error| refused(&error))?;
     if let Some(table) = document.entry(table).or_insert_with(toml_edit::table).as_table_like_mut() {

@@ -1,9 +1,9 @@
-//! Native part of the `flapwing` Python package.
+//! The compiled module of the Python package `flapwing`.
 //!
 //! [`parameters`], [`design`] and [`solver`] convert Python values to the types of flap-core and flap-sweep. [`columns`]
-//! converts rows to NumPy columns. `python/flapwing/_flapwing.pyi` repeats the signatures, and the docstrings of public
-//! names, for editors and type checkers; tests compare both. The public functions with full docstrings are in the folder
-//! `python/flapwing`.
+//! converts rows to NumPy columns. `python/flapwing/_flapwing.pyi` repeats the signatures, and the docstrings
+//! of public names, for editors and type checkers. Tests compare this file with the compiled module. The
+//! public functions with full docstrings are in the folder `python/flapwing`.
 
 mod begin;
 mod cluster;

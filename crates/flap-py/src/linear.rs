@@ -63,7 +63,7 @@ pub(crate) fn linear<'py>(
     into_python(py, &model, warnings)
 }
 
-/// Returns the inputs that the argument `inputs` names.
+/// Returns the inputs with the names in the argument `inputs` of the Python function.
 pub(crate) fn named(plan: &Plan, names: &[String]) -> PyResult<Vec<Input>> {
     inputs::named(plan, names).map_err(|error| error::argument("inputs", &error))
 }

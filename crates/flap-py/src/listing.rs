@@ -33,7 +33,7 @@ pub(crate) struct Measure {
 /// The standard errors of parameters in SI units, by name, and the correlation coefficients of pairs of parameters.
 type Uncertainty = (BTreeMap<String, f64>, Vec<(String, String, f64)>);
 
-/// A number, NaN for a value that is not set, or the name of an option.
+/// The value of a parameter: a number, NaN if the value is not set, or the name of an option.
 #[derive(IntoPyObject)]
 pub(crate) enum Value {
     Number(f64),
@@ -88,12 +88,13 @@ pub(crate) fn uncertainty(design: &Bound<'_, PyAny>) -> PyResult<Uncertainty> {
     Ok((errors, correlations.collect()))
 }
 
-/// Returns the model of a design, or a model by name.
+/// Returns the model of a design. A design can also be the name of a model.
 pub(crate) fn model(design: &Bound<'_, PyAny>) -> PyResult<Robot> {
     Ok(find(design)?.0)
 }
 
-/// Returns the model of a design with its values, or a model by name without values.
+/// Returns the model and the parameter values of a design. If the design is the name of a model, all values
+/// are NaN.
 fn find(design: &Bound<'_, PyAny>) -> PyResult<(Robot, Vec<f64>)> {
     let model = design.extract::<String>().ok().and_then(|name| simulate::by_name(&name));
     if let Some(model) = model {

@@ -8,7 +8,8 @@ use pyo3::types::PyDict;
 use crate::columns::{self, Columns};
 use crate::error;
 
-/// Returns a motion as a dictionary of `columns`, each with its meaning, and `meta`.
+/// Returns a motion as a dictionary with the entries `columns` and `meta`. Each column includes its
+/// description.
 pub(crate) fn into_python<'py>(
     py: Python<'py>,
     motion: Trajectory,
@@ -30,7 +31,8 @@ pub(crate) fn into_python<'py>(
     Ok(dict)
 }
 
-/// Returns the meanings of the columns of a trajectory by name; empty for other columns.
+/// Returns a function that maps the name of a trajectory's column to the description of the column. The
+/// description of an unknown column is empty.
 pub(crate) fn meanings(
     model: &dyn Simulator,
     motion: &Trajectory,

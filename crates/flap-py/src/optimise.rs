@@ -63,7 +63,7 @@ pub(crate) fn optimise<'py>(
     into_python(py, &problem, &best)
 }
 
-/// Returns the `ValueError` for a problem with a mistake.
+/// Returns the `ValueError` for an optimisation whose goal, conditions or plan contain a mistake.
 fn refused(error: &ProblemError, goal: &str, is_largest: bool, conditions: &[String]) -> PyErr {
     let place = match error.part {
         ProblemPart::Plan => String::new(),
@@ -74,7 +74,7 @@ fn refused(error: &ProblemError, goal: &str, is_largest: bool, conditions: &[Str
     error::with_help(format!("{place}{error}"), error.help.as_ref())
 }
 
-/// The answer as a dictionary; see `flapwing.Optimum`.
+/// Returns the result of an optimisation as a dictionary (see `flapwing.Optimum`).
 fn into_python<'py>(py: Python<'py>, problem: &Problem, best: &Optimum) -> PyResult<Bound<'py, PyDict>> {
     let plan = problem.plan();
     let values = |varied: &mut dyn Iterator<Item = (usize, f64)>| -> PyResult<Bound<'py, PyDict>> {

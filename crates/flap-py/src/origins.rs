@@ -1,4 +1,4 @@
-//! The sources of a design's numbers: the texts in its grid file and its devices.
+//! Sources of a design's parameter values, as written in the design's grid file and devices.
 
 use std::collections::BTreeMap;
 

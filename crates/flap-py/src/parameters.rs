@@ -40,7 +40,7 @@ pub(crate) fn index(robot: &Robot, name: &str) -> PyResult<usize> {
     Parameter::index(robot.parameters(), name).ok_or_else(|| unknown_parameter(robot, name))
 }
 
-/// Warns about a parameter for all wings of a vehicle that has no effect, because each wing sets its own value.
+/// Warns that a parameter of all wings of a vehicle has no effect, because each wing sets its own value.
 pub(crate) fn warn_unreached(py: Python<'_>, parameter: &Parameter) -> PyResult<()> {
     error::warn(py, format!("`{0}` has no effect: every wing sets its own `{0}`", parameter.name))
 }
@@ -54,7 +54,7 @@ pub(crate) fn value_of(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyRes
     found.map_err(|error| refused(parameter, &error))
 }
 
-/// Returns a number in SI units from a value that is not text.
+/// Converts a Python object that is not text to a number in SI units.
 fn number(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let Parameter { name, unit, .. } = *parameter;
     match parameter.kind {
@@ -103,7 +103,8 @@ fn unknown_parameter(robot: &Robot, name: &str) -> PyErr {
     ))
 }
 
-/// Returns the name among `names` that is nearest to `name`, as part of a message; empty if none is near.
+/// Returns the part of an error message that suggests the most similar of the names `names`. The text is
+/// empty if no name is similar to `name`.
 pub(crate) fn did_you_mean(name: &str, names: &[&str]) -> String {
     let nearest = nearest(name, names.iter().copied());
     nearest.map_or_else(String::new, |nearest| format!(", did you mean `{nearest}`?"))

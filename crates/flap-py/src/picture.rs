@@ -50,8 +50,8 @@ pub(crate) fn is_log(values: PyReadonlyArray1<'_, f64>) -> PyResult<bool> {
     Ok(scale::is_log(values.as_slice()?))
 }
 
-/// Return the default measure among `columns` that is not in `taken`. Return None if no
-/// default measure remains.
+/// Return the default measure among `columns` that is not in `taken`. Return None if `columns` contains no
+/// such measure.
 ///
 /// `role` is "response", "benefit", "cost" or "motion".
 #[pyfunction]
@@ -103,7 +103,8 @@ pub(crate) fn bars<'py>(py: Python<'py>, values: PyReadonlyArray1<'py, f64>) -> 
 
 /// Return the index of each parameter and its rank correlation with a measure, in falling order of absolute value.
 ///
-/// Parameters whose order equals the order of an earlier parameter, and parameters without a correlation, are left out.
+/// The result leaves out parameters without a correlation. If the values of two parameters have the same
+/// order, the result leaves out the second parameter.
 #[pyfunction]
 #[pyo3(signature = (parameters, measure, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]

@@ -1,4 +1,5 @@
-//! The design point of a call: a design with the values of keywords, and the index of the point.
+//! Chooses the design point that a Python call computes, from the design, the keyword arguments and the index
+//! of the point.
 
 use flap_core::num::Backend;
 use flap_core::parameter::Parameter;
@@ -18,15 +19,15 @@ pub(crate) struct Chosen {
     pub(crate) plan: Plan,
     /// Value of each parameter, in the order of the parameters.
     pub(crate) values: Vec<f64>,
-    /// The model with a waveform or a stroke of the call.
+    /// The model whose drive or stroke is replaced by samples, if the call gives a waveform or a stroke.
     sampled: Option<Box<dyn Simulator>>,
     /// The reason why the point cannot be run.
     pub(crate) invalid: Option<String>,
 }
 
 impl Chosen {
-    /// Returns point number `point` of a design with the values of keywords. If the call gives `wave`, `wave` drives
-    /// the point.
+    /// Returns point number `point` of a design, with the values of the keyword arguments. If `wave` is
+    /// given, its samples replace the drive or the stroke of the point.
     pub(crate) fn new(
         design: &Bound<'_, PyAny>,
         keywords: &Bound<'_, PyDict>,
@@ -53,8 +54,8 @@ impl Chosen {
         }
     }
 
-    /// Returns the point for a motion, or an error if the point cannot be run. If the drive frequency is the resonance,
-    /// searches for the resonance.
+    /// Returns the point whose motion is requested, or an error if the point cannot be run or is a vehicle.
+    /// If the drive frequency is the resonance, searches for the resonance.
     pub(crate) fn for_motion(self, py: Python<'_>) -> PyResult<Chosen> {
         design::check_one_wing(&self.plan)?;
         self.at_frequency(py)
@@ -80,8 +81,8 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// Returns the point, or an error if the point cannot be run. If rows are computed at hover, searches for the
-    /// inputs at hover.
+    /// Returns the point, or an error if the point cannot be run. If the grid requires hover (`trim`),
+    /// searches for the inputs at hover and sets these inputs.
     pub(crate) fn at_hover(self, py: Python<'_>) -> PyResult<Chosen> {
         let mut chosen = self.possible()?;
         let found = interruptible(py, |interrupted| {
@@ -95,7 +96,7 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// Returns the information for running the point.
+    /// Returns the arguments with which a model simulates the point.
     pub(crate) fn run(&self) -> PointRun<'_> {
         PointRun::new(Backend::best(), self.plan.solver(), &self.values)
     }
@@ -105,7 +106,8 @@ impl Chosen {
         self.sampled.as_deref().unwrap_or(self.plan.simulator())
     }
 
-    /// Returns the computation of the point's row: its model, or the search for its resonance.
+    /// Returns the object that computes the row of the point: the model of the point, or the search for the
+    /// point's resonance.
     pub(crate) fn rows(&self) -> &dyn Rows {
         match self.sampled.as_deref() {
             Some(sampled) => sampled,
@@ -122,8 +124,8 @@ impl Chosen {
         Parameter::index(self.plan.parameters(), name)
     }
 
-    /// Replaces the drive or the stroke by samples. The drive period is the duration of the samples, unless the
-    /// frequency `is_set`.
+    /// Replaces the drive or the stroke by samples. The drive period is the duration of the samples, unless
+    /// the call sets the drive frequency (`is_set`).
     fn drive_by(&mut self, wave: &Wave, is_set: bool) -> PyResult<()> {
         let mut fixed = Vec::new();
         if !is_set && let Some(index) = self.parameter(DRIVE_FREQUENCY) {
@@ -154,7 +156,7 @@ impl Chosen {
     }
 }
 
-/// Returns the index of the point: the given index, or the only point.
+/// Returns the index of the chosen point. If `point` is not given, the plan must have only one point.
 fn index(plan: &Plan, point: Option<&Bound<'_, PyAny>>) -> PyResult<u64> {
     let length = plan.len();
     let Some(point) = point else {

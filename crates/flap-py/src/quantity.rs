@@ -1,4 +1,4 @@
-//! Converts text to quantities, for data of the user.
+//! Converts text with units in the user's data to numbers.
 
 use flap_sweep::notation::units;
 use pyo3::prelude::*;
@@ -22,7 +22,8 @@ pub(crate) fn parameter(model: &Bound<'_, PyAny>, parameter: &str) -> PyResult<S
     Ok(model.parameters()[parameters::index(&model, parameter)?].name.to_owned())
 }
 
-/// Parse a text such as `"3 mm"`, and return the number in `unit`. Both units must measure the same kind of quantity.
+/// Parse a text such as `"3 mm"`, and return the number in `unit`. The unit in the text and `unit` must
+/// measure the same kind of quantity.
 #[pyfunction]
 #[pyo3(signature = (name, text, unit, /))]
 pub(crate) fn quantity(name: &str, text: &str, unit: &str) -> PyResult<f64> {

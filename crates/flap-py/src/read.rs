@@ -52,7 +52,7 @@ struct Contents {
     columns: Columns,
     /// The origin of the rows, if the file records the origin.
     origin: Option<Origin>,
-    /// Units of the columns that the file records.
+    /// Units of the columns, if the file records the units.
     units: BTreeMap<String, String>,
     warnings: Vec<String>,
     /// True if checksums agree with the rows.
@@ -102,8 +102,8 @@ fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
     Ok(Contents { columns, origin, units, warnings, is_verified: notes.is_empty() })
 }
 
-/// Returns the origin from the sidecar, or from the results file if the sidecar is missing. The columns of the origin
-/// must equal the columns of the file.
+/// Returns the origin from the sidecar, or from the results file if the sidecar is missing. Returns `None` if
+/// the columns of the origin differ from the columns of the file.
 fn origin(sidecar: Option<Sidecar>, reader: &Reader) -> Option<Origin> {
     let fits = |origin: &Origin| Layout::of(&origin.plan).names().iter().eq(reader.names());
     sidecar.and_then(beside).filter(fits).or_else(|| inside(reader).filter(fits))
@@ -123,7 +123,8 @@ fn inside(reader: &Reader) -> Option<Origin> {
     Some(Origin { plan, flap, build, arithmetic })
 }
 
-/// Returns the columns of a file without an origin; the kind of each column is inferred from its cells.
+/// Returns the columns of a file that records no origin of its rows. The cells of each column determine the
+/// kind of the column.
 fn guess(reader: &mut Reader) -> std::io::Result<Vec<Column>> {
     let mut kinds: Vec<Option<CellKind>> = vec![None; reader.names().len()];
     let mut row = StringRecord::new();

@@ -1,4 +1,4 @@
-//! Records over time from Python: waveforms, strokes, motions and points in images.
+//! Reads records over time that a Python user gives: waveforms, strokes, motions and points in images.
 
 use std::path::PathBuf;
 
@@ -19,7 +19,8 @@ pub(crate) struct Wave {
 }
 
 impl Wave {
-    /// Returns the waveform or the stroke of a call, if the call has one.
+    /// Returns the samples of the waveform or of the stroke, or `None` if the call gives neither a waveform
+    /// nor a stroke.
     pub(crate) fn of(
         waveform: Option<&Bound<'_, PyAny>>,
         stroke: Option<&Bound<'_, PyAny>>,
@@ -49,7 +50,8 @@ impl Wave {
     }
 }
 
-/// Reads the record of a file, or of a dictionary of float64 arrays. Messages call the record `name`.
+/// Reads a record from a file or from a dictionary of float64 arrays. Error messages use `name` as the name
+/// of the record.
 pub(crate) fn read(name: &str, source: &Bound<'_, PyAny>) -> PyResult<Record> {
     let Ok(columns) = source.cast::<PyDict>() else {
         let path: PathBuf = source.extract()?;
@@ -61,7 +63,7 @@ pub(crate) fn read(name: &str, source: &Bound<'_, PyAny>) -> PyResult<Record> {
     Record::of(name, columns.collect::<PyResult<_>>()?).map_err(|error| refused(&error))
 }
 
-/// Returns a quantity of a record over the time of the record.
+/// Returns the samples of one quantity of a record.
 pub(crate) fn samples(record: &Record, quantity: &Quantity<'_>, repeat: Repeat) -> PyResult<Samples> {
     record.samples(quantity, repeat).map_err(|error| refused(&error))
 }

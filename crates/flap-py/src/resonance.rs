@@ -1,4 +1,5 @@
-//! Computes the resonances of one point: linear, after an impulse, and driven.
+//! Computes the resonances of one point in small motions, in the free motion after an impulse, and in the
+//! driven motion.
 
 use flap_core::modes::Mode;
 use flap_core::num::Backend;

@@ -25,8 +25,9 @@ struct Judged {
     bands: Vec<Band>,
 }
 
-/// A bistable band: its ends in SI units, and the largest difference of the stroke between the two motions (deg, peak
-/// to peak). The difference is NaN if the band has no value at which both motions are periodic.
+/// A bistable band: the ends of the band in SI units, and the largest difference between the peak-to-peak
+/// strokes of the rising and the falling branch (deg). The difference is NaN if no point of the band has
+/// periodic motions on the two branches.
 #[derive(IntoPyObject)]
 struct Band {
     start: f64,
@@ -116,10 +117,10 @@ pub(crate) fn respond<'py>(
     Ok(dict)
 }
 
-/// Returns the plan of a design and the parameter that it follows.
+/// Returns the plan of a design, and the followed parameter with its steps.
 ///
 /// # Errors
-/// A mistake in the design or the arguments, as an exception.
+/// Returns a Python exception if the design or an argument contains a mistake.
 fn followed<'py>(
     design: &Bound<'py, PyAny>,
     parameter: &str,
@@ -153,7 +154,8 @@ fn followed<'py>(
     Along::new(plan, index, steps, tolerance, unstable).map_err(|error| impossible(&error))
 }
 
-/// Returns a value of a parameter; `None` for a choice, because no curve follows a choice.
+/// Converts `value` to a number in SI units. Returns `None` for a choice, because a response cannot follow a
+/// choice.
 fn number(parameter: &Parameter<'_>, value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<f64>> {
     match parameter.kind {
         Kind::Choice(_) => Ok(None),

@@ -13,7 +13,7 @@ use crate::records::Wave;
 use crate::watch::interruptible;
 use crate::{begin, convert, error, motion};
 
-/// Largest number of samples in a trajectory, which is held in memory.
+/// Largest number of samples in a trajectory. All samples of a trajectory are in memory at the same time.
 const SAMPLES_MAX: u64 = 5_000_000;
 
 /// Run one point; see `flapwing.run`.
@@ -93,8 +93,8 @@ pub(crate) fn trajectory<'py>(
     motion::into_python(py, sampled, meanings, &chosen.meta(py)?)
 }
 
-/// Returns a row as a dictionary. The entry `measures` has the model's measures, called `names`, then the measures of
-/// the grid's `[measure]`. Unknown numbers and flags are NaN.
+/// Returns a row as a dictionary. The entry `measures` contains the measures of the model, with the names
+/// `names`, and then the measures that the grid defines under `[measure]`. Unknown numbers and flags are NaN.
 pub(crate) fn row_to_dict<'py>(
     py: Python<'py>,
     names: &[&str],

@@ -39,7 +39,8 @@ impl<'py> Keywords<'py> {
         &self.0
     }
 
-    /// Replaces the settings that the call gives. `TypeError` or `ValueError` for a value that a setting cannot have.
+    /// Copies the settings that the call gives into `settings`. If a setting cannot have the given value,
+    /// returns a `TypeError` or a `ValueError`.
     pub(crate) fn apply(&self, settings: &mut SolverSettings) -> PyResult<()> {
         // The order of the table matters, because rtol determines the defaults of atol and accuracy.
         for Setting { name, kind, .. } in SolverSettings::TABLE {
@@ -63,7 +64,8 @@ impl<'py> Keywords<'py> {
 /// A keyword that is not a solver setting.
 pub(crate) type Keyword<'py> = (String, Bound<'py, PyAny>);
 
-/// Returns a number more than zero and less than `limit`. `ValueError` for other numbers, `TypeError` for other types.
+/// Converts `value` to a number that is more than zero and less than `limit`. Any other number is a
+/// `ValueError`, and a value of another type is a `TypeError`.
 fn tolerance(name: &str, limit: f64, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let number = convert::number(name, "a number", value)?;
     if number > 0.0 && number < limit {

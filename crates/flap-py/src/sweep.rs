@@ -1,4 +1,4 @@
-//! Runs every point of a plan, into columns or into a file.
+//! Runs every point of a plan, and writes the rows into columns in memory or into a file.
 
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
@@ -27,8 +27,8 @@ const CHECKPOINT: Duration = Duration::from_secs(1);
 
 /// Run a grid; see `flapwing.sweep`.
 ///
-/// `chunks` is a function that returns rows of other processes. The argument of `chunks` is the number of points done, and
-/// the result is the next chunk of rows as bytes.
+/// `chunks` is a function that returns rows of other processes. The argument of `chunks` is the number of
+/// finished points, and the result is the next chunk of rows as bytes.
 #[pyfunction]
 #[pyo3(signature = (grid, /, *, out=None, restart=false, threads=None, progress=None, chunks=None))]
 pub(crate) fn sweep<'py>(
@@ -99,8 +99,8 @@ fn into_columns<'py>(
     Ok(dict)
 }
 
-/// Runs a job and returns its `summary`, `axes` and `meta`. The summary includes rows of earlier runs. The summary is
-/// empty if nothing was left to run.
+/// Runs a job and returns its `summary`, `axes` and `meta`. The summary includes rows of earlier runs. The
+/// summary is empty if the file already contained all rows.
 fn into_file<'py>(
     py: Python<'py>,
     job: &Job<'_>,
@@ -141,7 +141,8 @@ fn into_file<'py>(
     Ok(dict)
 }
 
-/// Runs the points in this process, or takes the rows of the points from chunks.
+/// Writes the rows of all points to `sink`. If `chunks` is given, other processes compute the rows, except
+/// the rows of a refinement.
 fn work(
     plan: &Plan,
     options: &RunOptions,
@@ -169,7 +170,7 @@ fn work(
     output.finish(ended)
 }
 
-/// Takes the rows of other processes, until there are no more rows or the interpreter interrupts the run.
+/// Writes the rows that other processes compute, until all rows are written or the run is interrupted.
 fn fetch(
     plan: &Plan,
     options: &RunOptions,
@@ -199,8 +200,8 @@ fn fetch(
     Ok(())
 }
 
-/// Returns the derivatives of rows as a dictionary: the measures, the parameters, and the column of each pair of
-/// measure and parameter.
+/// Returns a dictionary that describes the derivatives in the rows: the names of the measures, of the
+/// parameters, and of the columns. There is one column for each pair of a measure and a parameter.
 fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bound<'py, PyDict>> {
     let known: Vec<&str> = plan.measured().collect();
     let of: Vec<&str> = gradient.of.iter().map(|&of| known[of]).collect();

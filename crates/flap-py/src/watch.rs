@@ -7,12 +7,14 @@ use flap_core::simulate::Interrupt;
 use flap_sweep::run::Progress;
 use pyo3::prelude::*;
 
-/// The interval between checks. The interval is short for a user, and long compared with the time of a check.
+/// The interval between checks. A user does not notice a delay of this length, and one check takes much less
+/// time.
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// Checks for signals and reports progress while work runs without the interpreter lock.
 pub(crate) struct Watch {
-    /// A callback, called with the number of points done and the total number of points.
+    /// The user's progress function, whose arguments are the number of finished points and the number of all
+    /// points.
     progress: Option<Py<PyAny>>,
     last: Option<Instant>,
     error: Option<PyErr>,
@@ -23,8 +25,8 @@ impl Watch {
         Watch { progress, last: None, error: None }
     }
 
-    /// If [`INTERVAL`] has passed, checks for signals and reports progress. Returns true if an exception of a signal handler or of
-    /// the callback ended the work.
+    /// If [`INTERVAL`] has passed, checks for signals and reports progress. Returns true if an exception of a
+    /// signal handler or of the progress function has ended the work.
     pub(crate) fn stops(&mut self, Progress { finished, points }: Progress) -> bool {
         if self.error.is_none() && self.last.is_none_or(|last| last.elapsed() >= INTERVAL) {
             self.look_now(finished, points);
@@ -46,7 +48,8 @@ impl Watch {
         self.note(seen);
     }
 
-    /// If `seen` is an exception, stores the exception and ends the work.
+    /// If `seen` is an error, stores its exception, so that the work ends. Only the first exception is
+    /// stored.
     pub(crate) fn note(&mut self, seen: PyResult<()>) {
         if let Err(error) = seen {
             self.error.get_or_insert(error);
@@ -61,14 +64,14 @@ impl Watch {
         }
     }
 
-    /// Returns the exception that ended the work as `Err`, if an exception ended the work.
+    /// Returns `Err` with the exception if an exception ended the work, and `Ok` otherwise.
     pub(crate) fn ended(self) -> PyResult<()> {
         self.error.map_or(Ok(()), Err)
     }
 }
 
-/// Runs `work` without the interpreter lock. Ctrl-C interrupts the work, and the exception of the signal handler is
-/// then returned as `Err`.
+/// Runs `work` without the interpreter lock. If the user presses Ctrl-C, the work ends, and the result is
+/// `Err` with the exception of Python's signal handler.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(Interrupt<'_>) -> T + Send,

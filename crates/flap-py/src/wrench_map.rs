@@ -13,7 +13,8 @@ use crate::point::Chosen;
 use crate::watch::Watch;
 use crate::{convert, error, parameters, sweep};
 
-/// Fit a quadratic map of force and torque; see `flapwing.wrench_map`. Each range is a name, a first and a last value.
+/// Fit a quadratic map of force and torque; see `flapwing.wrench_map`. Each entry of `ranges` contains the
+/// name, the smallest value and the largest value of an input.
 #[pyfunction]
 #[pyo3(signature = (design, keywords, /, *, point, ranges, samples, threads=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
@@ -55,7 +56,7 @@ pub(crate) fn wrench_map<'py>(
     into_python(py, &chosen, &map)
 }
 
-/// Returns an input of the map with its range.
+/// Returns the input `name` of the map, whose values are between `from` and `to`.
 fn input(chosen: &Chosen, name: &str, from: &Bound<'_, PyAny>, to: &Bound<'_, PyAny>) -> PyResult<MapInput> {
     let input = inputs::input(&chosen.plan, name).map_err(|error| error::argument("ranges", &error))?;
     let parameter = &chosen.plan.parameters()[input.parameter];

@@ -19,7 +19,7 @@ COLUMNS = "it must be a dictionary of columns, a Table, a DataFrame (pandas, pol
 
 
 def columns_of(name: str, given: Any) -> dict[str, Any]:
-    """Return the columns of a mapping, a Table, a DataFrame or an Arrow table, by name."""
+    """Return a dictionary of the columns of a mapping, a Table, a DataFrame or an Arrow table."""
     found: dict[Any, Any] | None = None
     with reading(name, given, COLUMNS):
         is_lazy = not isinstance(given, Mapping) and hasattr(given, "collect")
@@ -60,7 +60,7 @@ def numbers(name: str, values: Any, *, unknown: bool = False) -> np.ndarray[Any,
 
 
 def refuse_missing(name: str, values: Any) -> None:
-    """Raise ValueError if a column has masked values or nulls, because a point requires a number."""
+    """Raise ValueError if a column has masked values or nulls, because every point requires a value."""
     kind, missing = "masked", 0
     with reading(name, values, "it must be a list, an array or a Series"):
         if isinstance(values, np.ma.MaskedArray):
@@ -81,8 +81,8 @@ def refuse_missing(name: str, values: Any) -> None:
 
 
 def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
-    """Return a waveform or a motion over time as a path, or as columns with arrays. If `given` is a pair of arrays, the
-    second array gets the name `heading`.
+    """If a waveform or a motion is given as the path of a file, return the path. Otherwise return the columns as a
+    dictionary of arrays. The second array of a pair has the name `heading` in the dictionary.
     """
     if isinstance(given, (str, os.PathLike)):
         return os.fspath(given)
@@ -101,7 +101,7 @@ def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
 
 
 def _is_table(name: str, given: Any, allowed: str) -> bool:
-    """Return True if the argument is a table of columns, including a lazy frame of polars."""
+    """Return True if the argument is a table with columns, for example a LazyFrame of polars."""
     with reading(name, given, allowed):
         return any(hasattr(given, attribute) for attribute in ("collect", "columns", "column_names"))
 
@@ -119,8 +119,8 @@ def waves(waveform: Any, stroke: Any) -> dict[str, Any]:
 
 
 def state(design: Design, initial_state: Any) -> dict[str, Any] | None:
-    """Return the components of a state. If `initial_state` is a row with further columns, return only the columns with
-    states of the design's model.
+    """Return the components of the initial state by name. If `initial_state` is a row of a table, return only the
+    columns that are states of the design's model.
     """
     if initial_state is None:
         return None
@@ -164,8 +164,8 @@ def _is_missing(name: str, value: Any) -> bool:
 
 
 def states(design: Design, initial_state: Any) -> np.ndarray[Any, np.dtype[np.float64]] | None:
-    """Return an array with one state per row and one component of the state per column. Return None for motions that
-    begin at rest.
+    """Return the initial states of a batch as an array: one row per point, and one column per component of the state.
+    Return None if no initial state is given, so that all motions begin at rest.
     """
     if initial_state is None:
         return None
@@ -188,7 +188,7 @@ def measures(names: Any) -> list[str] | None:
 
 
 def gradient(names: Any) -> list[str] | None:
-    """Return names of parameters as a list of at least one name."""
+    """Return names of parameters as a list. An empty list raises ValueError."""
     listed = name_list("gradient", names, "hinge_stiffness")
     if listed == []:
         raise ValueError('`gradient` is empty\nit must be a list of names such as ["hinge_stiffness"]')
@@ -196,7 +196,7 @@ def gradient(names: Any) -> list[str] | None:
 
 
 def name_list(argument: str, names: Any, example: str) -> list[str] | None:
-    """Return names as a list, and None unchanged."""
+    """Return names as a list, or None if `names` is None."""
     if names is None:
         return None
     if isinstance(names, str) or not hasattr(names, "__iter__"):
@@ -210,14 +210,15 @@ def name_list(argument: str, names: Any, example: str) -> list[str] | None:
 
 
 def flag(name: str, value: Any) -> bool:
-    """Return the value of a flag, True or False. Raise TypeError if the value is not a flag."""
+    """Return `value` as a bool. Raise TypeError if `value` is not True or False."""
     if not isinstance(value, (bool, np.bool_)):
         raise refused(name, value, "it must be True or False")
     return bool(value)
 
 
 def executor(client: Any) -> Executor:
-    """Return an executor, such as the client of a Dask cluster. Raise TypeError if `client` is not an executor."""
+    """Return `client`, an executor such as the client of a Dask cluster. Raise TypeError if `client` is not an
+    executor."""
     if not callable(getattr(client, "submit", None)) or isinstance(client, type):
         raise refused(
             "client",

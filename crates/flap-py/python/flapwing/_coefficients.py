@@ -37,9 +37,10 @@ class CoefficientFit:
     attack : array of shape (n,)
         Attack angles of the table (rad).
     fitted : dict of str to array of shape (n,)
-        For each column of the table, the values of the model at the attack angles.
+        Values that the model computes at the attack angles, one array for each fitted column of the table.
     largest_error : dict of str to float
-        For each column of the table, the largest difference between the table and the model.
+        Largest magnitude of the difference between the table and the model, one number for each fitted column of the
+        table.
     """
 
     params: dict[str, float]
@@ -63,8 +64,8 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
         C_D = b_max sin² α + b_min cos² α + sin² 2α (d_0 + d_1 cos 2α)
         centre of pressure = constant + slope α + sin 2α (p_c0 + p_c1 cos 2α)
 
-    The lift of these laws is zero at 0 and 90°, so the fit has an error if the table contains a lift at 90°. b_L, b_max
-    and b_min are at least zero.
+    The lift of these laws is zero at 0 and 90°, so the fit cannot reproduce a lift at 90° that is not zero. The fitted
+    coefficients b_L, b_max and b_min are never negative.
 
     Parameters
     ----------
@@ -80,15 +81,15 @@ def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
     Returns
     -------
     CoefficientFit
-        The parameters and the errors of the fit.
+        The fitted parameters, and the largest differences between the table and the model.
 
     Raises
     ------
     ValueError
-        Raised if the design is unknown, or the model of the design has other laws of lift and drag. Raised if a column
-        is missing, an angle is not between 0 and 90°, a number is not finite, or columns differ in length. Raised if
-        the table has too few angles, or the angles do not determine a law. The lift requires three different angles
-        between 0 and 90°, excluding 0 and 90°.
+        Raised if the design is unknown, or if the model of the design does not use these laws of lift and drag. Raised
+        if a column is missing, an angle is not between 0 and 90°, a number is not finite, or columns differ in length.
+        Raised if the table has too few angles, or if the angles do not determine the coefficients of a law. To fit the
+        lift, the table must contain three different angles that are more than 0 and less than 90°.
     TypeError
         Raised if the table is neither text, nor a path, nor a set of columns.
 
@@ -148,10 +149,11 @@ def _check_angles(name: str, columns: Array) -> None:
 
 
 def _solve(columns: Array, values: Array, least: int) -> Array:
-    """Return the least-squares solution, in which the first `least` unknowns are not negative.
+    """Return the least-squares solution under the constraint that the first `least` unknowns are not negative.
 
-    The constrained solution is an unconstrained solution in which some of the first `least` unknowns are zero.
-    Therefore all sets of zero unknowns are tried.
+    In the constrained solution, some of the first `least` unknowns are zero, and the other unknowns solve the problem
+    without constraints. Therefore `_solve` sets each combination of the first `least` unknowns to zero and returns the
+    best allowed solution.
     """
     solutions = []
     for positive in product((True, False), repeat=least):
@@ -169,7 +171,8 @@ _Law = tuple[Callable[[Array], list[Array]], int, Callable[..., dict[str, float]
 
 
 def _laws(known: set[str]) -> dict[str, _Law]:
-    """Return the laws of the coefficients in the model that has the parameters `known`."""
+    """Return the laws for each column of the table. The names in `known` are the parameters of the model and determine
+    the form of the laws."""
     if not {"lift_term_1", "drag_term_0", "pressure_term_0"} <= known:
         raise ValueError("the model of the design does not have these laws\nuse bimorph, direct-drive or four-bar")
     sine = "lift_amplitude" in known

@@ -46,12 +46,12 @@ class Column(NamedTuple):
         return values
 
     def flags(self) -> np.ndarray[Any, Any]:
-        """Return a column of flags as True and False. An unknown flag is returned as False. The function `known`
-        returns a mask of known flags."""
+        """Return the flags of the column as an array of True and False. Unknown flags are False in the array. The
+        function `known` returns a mask that is False for unknown flags."""
         return np.equal(self.cells, 1)
 
     def known(self) -> np.ndarray[Any, Any]:
-        """Return a mask of a column, which is True for cells with a value."""
+        """Return an array of True and False, which is True for each cell of the column with a known value."""
         if self.is_flag:
             return np.greater_equal(self.cells, 0)
         if self.cells.dtype == np.float64:
@@ -156,7 +156,8 @@ def to_xarray(columns: Columns, axes: Axes, meta: Meta) -> xarray.Dataset:
 
 
 def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndarray[Any, Any]]:
-    """Return the dimensions of a Dataset, the length of each dimension, and the index of the cell of each row."""
+    """Return the names and lengths of the dimensions of a Dataset. Also return, for each row of the table, the index of
+    its cell in the flattened array."""
     rows = len(next(iter(columns.values())).cells) if columns else 0
     if not axes:
         is_motion = next(iter(columns), None) == "time_s" and bool((np.diff(columns["time_s"].cells) > 0).all())
@@ -170,7 +171,8 @@ def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndar
 
 
 def _along(columns: Columns, axis: dict[str, np.ndarray[Any, Any]], rows: int) -> np.ndarray[Any, Any]:
-    """Return the index of each row along an axis. The index is found from the values of the axis's parameters."""
+    """Return the index of each row along an axis: the position of the row's parameter values in the list of values of
+    the axis."""
     length = len(next(iter(axis.values())))
     if length == 1:
         return np.zeros(rows, np.intp)
@@ -186,7 +188,8 @@ def _along(columns: Columns, axis: dict[str, np.ndarray[Any, Any]], rows: int) -
 
 
 def _places(columns: Columns, axes: Axes) -> list[str]:
-    """For a table without axes, return the columns that identify a row: the place on a curve, or the time."""
+    """Return the columns that become coordinates of a Dataset for a table without axes. These columns contain the time,
+    or identify a point of a curve."""
     if axes:
         return []
     names = list(columns)

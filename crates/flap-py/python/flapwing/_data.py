@@ -97,7 +97,7 @@ class Data:
         return str(known) if is_known else _labels.unit_of(name)
 
     def measured(self) -> np.ndarray:
-        """Return a mask, which is True for rows with measures."""
+        """Return an array that is True for each row with measures and False for each row without measures."""
         if "status" not in self.columns:
             return np.ones(len(self), dtype=bool)
         return np.isin(self.columns["status"].astype(str), MEASURED)
@@ -122,8 +122,8 @@ class Data:
         return [name for name in names if not is_text(self.columns[name])]
 
     def usual(self, role: str, option: str, taken: Sequence[str] = ()) -> str:
-        """Return the default measure for a role: "response", "benefit", "cost" or "motion". The default measures are
-        the default measures of `flap plot`.
+        """Return the default measure for a role: "response", "benefit", "cost" or "motion". The command `flap plot`
+        uses the same default measures.
         """
         found = usual_measure(role, self.measures(), list(taken))
         if found is None:
@@ -131,8 +131,8 @@ class Data:
         return found
 
     def one_sample(self, shown: Sequence[str] = ()) -> Data:
-        """Return the designs of a grid. If a sample is combined with an axis that is not in `shown`, return only the
-        rows at the middle value of the axis."""
+        """Return one row for each design of a sample. If the grid combines a sample with axes, axes that are not in
+        `shown` are fixed at their middle values."""
         left = [name for name in self.axes() if self.on_a_grid(name)]
         if len(left) == len(self.axes()):
             return self
@@ -141,7 +141,8 @@ class Data:
 
     def for_picture(self, names: Sequence[str], remedy: str = "") -> Data:
         """Return one row for each combination of values in the columns `names`. All axes that are not in `names` are
-        fixed at their middle values, as in `flap plot`. A warning ends with the text `remedy`.
+        fixed at their middle values, as in `flap plot`. The text `remedy` is added at the end of the warning about the
+        fixed axes.
         """
         if self._has_one_row_for(names):
             return self
@@ -156,8 +157,8 @@ class Data:
         return len(np.unique(self.groups(names))) == len(self)
 
     def _several_rows(self, names: Sequence[str], left: Sequence[str]) -> ValueError:
-        """Return the error for several rows with the same values in all columns `names`. `left` has the axes that vary
-        and that the picture does not show.
+        """Return the error for several rows with the same values in all columns `names`. The names in `left` are the
+        axes that vary but are not shown in the picture.
         """
         if not left:
             return ValueError(f"several rows have the same {' and '.join(f'`{name}`' for name in names)}")
@@ -174,7 +175,8 @@ class Data:
         )
 
     def _at_the_middle(self, axes: Sequence[str], remedy: str = "") -> Data:
-        """Return the rows at the middle value of each axis in `axes`. A warning lists the middle values."""
+        """Return the rows at the middle value of each axis in `axes`, and warn about the choice of the middle
+        values."""
         data = self
         for name in axes:
             data = data.rows(data.on_axis(name))
@@ -194,8 +196,8 @@ class Data:
         return data
 
     def axes(self) -> list[str]:
-        """Return one parameter for each axis with more than one value. The result leaves out parameters that vary
-        together with an earlier parameter.
+        """Return one parameter for each axis with more than one value. If several parameters vary together, the result
+        has only the first of these parameters.
         """
         if self.grid_axes:
             firsts = [next((name for name in axis if name in self.columns), "") for axis in self.grid_axes]
@@ -225,8 +227,8 @@ class Data:
         return name
 
     def values_along(self, name: str, whole: Data) -> np.ndarray:
-        """Return the distinct values of a parameter. For a parameter of an axis, the result has all values in `whole`,
-        including values that no selected row has.
+        """Return the distinct values of a parameter. If the parameter has its own axis, its values are taken from the
+        unselected data `whole`.
         """
         return distinct((whole if [name] in self.grid_axes else self)[name])
 
@@ -235,8 +237,8 @@ class Data:
         return not any(name in axis for axis in self.grid_axes if axis[0] not in self.columns)
 
     def on_axis(self, name: str) -> np.ndarray:
-        """Return a mask, which is True for rows at a value of the axis of the parameter `name`. A refined grid also has
-        rows between the values of the axis.
+        """Return an array that is True for each row whose value of `name` is a value of the parameter's axis. A refined
+        grid also has rows between the values of the axis.
         """
         values = np.asarray(self.axis_values.get(name, ()))
         if len(values) < 2 or is_text(values) or is_text(self[name]):
@@ -292,7 +294,8 @@ DESIGN = "design"
 
 
 def several(table: Any, label: str | Sequence[str] | None) -> dict[str, Data] | None:
-    """Return the results of several designs by their names, or None if `table` has the results of one call."""
+    """Return the data of several designs in a dictionary by the names of the designs. Return None if `table` contains
+    the results of only one design."""
     if isinstance(table, (list, tuple)):
         names = [str(place) for place in range(1, len(table) + 1)] if label is None else label
         if isinstance(names, str) or len(names) != len(table):
@@ -313,13 +316,14 @@ def several(table: Any, label: str | Sequence[str] | None) -> dict[str, Data] | 
 
 
 def _is_table(value: Any) -> bool:
-    """Return True for a table of results of any kind, and False for a column."""
+    """Return True if `value` is a table of results or the path of a file with results, and False if `value` is a
+    column."""
     return isinstance(value, (Data, Table, Mapping, str, os.PathLike)) or hasattr(value, "columns")
 
 
 def joined(runs: Mapping[str, Data]) -> Data:
-    """Return the rows of several results as one result. The first column has the names of the results. The remaining
-    columns are the columns that all results have.
+    """Return one table with the rows of several results. The first column has the names of the results. All further
+    columns are the columns that occur in every result.
     """
     first = next(iter(runs.values()))
     names = [name for name in first.columns if all(name in run for run in runs.values())]
@@ -334,12 +338,14 @@ def joined(runs: Mapping[str, Data]) -> Data:
 
 
 def _plain(column: np.ndarray) -> np.ndarray:
-    """Return words as text of NumPy, so that columns of different tables can be joined."""
+    """Return a column of words as a NumPy array of strings. Columns of this type from different tables can be
+    concatenated."""
     return column.astype(str) if is_text(column) else column
 
 
 class Shown:
-    """Data of a column for a picture: the factor to a readable unit, and the label of the column."""
+    """A column for a picture: the values in a readable unit, the factor to the readable unit, and the label of the
+    column."""
 
     def __init__(self, data: Data, name: str) -> None:
         self.name = name
@@ -351,7 +357,8 @@ class Shown:
         self.values = data[name] if self.text else data[name].astype(float) * self.factor
 
     def value(self, value: Any) -> str:
-        """Return a value of the table as text: a number in the readable unit, without the unit."""
+        """Return a value of the column as text. The text of a number is the value in the readable unit, without the
+        name of the unit."""
         return str(value) if self.text else _labels.number(float(value) * self.factor)
 
 
@@ -398,8 +405,9 @@ def distinct(column: np.ndarray) -> np.ndarray:
 
 
 def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
-    """Return the edges of the cells of a picture around rising values. An edge is halfway between two neighbouring
-    values. The first value is in the middle of the first cell, and the last value is in the middle of the last cell.
+    """Return the edges of the cells of a picture, with one cell around each of the rising values. Each inner edge is
+    halfway between two neighbouring values. The first value is in the middle of the first cell, and the last value is
+    in the middle of the last cell.
     """
     places = np.log(values) if log else np.asarray(values, dtype=float)
     if len(places) == 1:
@@ -412,13 +420,14 @@ def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
 
 
 def scattered(name: str) -> ValueError:
-    """Return the error for a sampled parameter, which a picture cannot use as an axis."""
+    """Return the error for a parameter of a sample. The values of such a parameter form no axis, but the picture
+    requires an axis."""
     return ValueError(f"`{name}` is sampled, so its values form no axis; draw such designs with plot.scatter")
 
 
 def listed(values: Sequence[Any] | np.ndarray) -> str:
-    """Return values as text for a sentence, separated by commas. From a long list, values in the middle are left
-    out."""
+    """Return values as text for a sentence, separated by commas. If the list has more than 12 values, the text leaves
+    out values in the middle of the list."""
     texts = [value if isinstance(value, str) else f"{value:.12g}" for value in values]
     if len(texts) > 12:
         texts = [*texts[:8], "…", *texts[-2:], f"({len(texts)} values)"]

@@ -42,10 +42,10 @@ def evaluate(
     Parameters
     ----------
     design : str, path, dict or Grid
-        The base of all points: a preset, a model, or a grid (see `Grid`). For a model, give all parameters of the
-        model. The tables ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` of a grid apply to
-        every point. If the grid has axes, all points of the axes are run for each row of `columns`, for example all
-        frequencies for each design.
+        The design that all points start from: a preset, a model, or a grid (see `Grid`). For a model, give all
+        parameters of the model. The tables ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` of
+        a grid apply to every point. If the grid has axes, all points of the axes are run for each row of `columns`, for
+        example all frequencies for each design.
     columns : dict, Table or DataFrame
         The parameters of n points, by name. The values of a parameter are an array, a Series or a range of n numbers in
         SI units. A list of texts with units, or a list of options, is accepted too. A single value of a parameter
@@ -74,8 +74,8 @@ def evaluate(
         If True, the table also has columns with the state of the motion at the beginning of a drive period. You can
         pass the table as `initial_state` of the next call.
     **keywords : float or str
-        Parameters of all points and solver settings, as for `run`. A parameter must not be a keyword and also a column
-        of `columns`.
+        Parameters of all points and solver settings, as for `run`. A parameter must not be given twice, as a keyword
+        argument and as a column of `columns`.
 
     Returns
     -------
@@ -83,18 +83,19 @@ def evaluate(
         One row for each row of `columns`, in the order of `columns`. With a grid that has axes, each row of `columns`
         gives one row for each point of the axes. In the table, all points of the axes for one row of `columns` come
         before the points of the next row. With a grid that has axes, `Table.axes` begins with the axis `row`. Points
-        that ``[where]`` excludes have no row, but count in the column `point`. A row has the status ``"invalid"`` if a
-        value is out of range, infinite or not a number. A row is also invalid if the combination of parameter values is
-        impossible. ``table.meta["invalid"]`` has the reasons why the first few points are invalid. With `gradient`, a
-        missing derivative is nan, and the column ``gradient_gap`` has the reason.
+        that ``[where]`` excludes have no row, but the indices in the column `point` count the excluded points too. A
+        row has the status ``"invalid"`` if a value is out of range, infinite or not a number. A row is also invalid if
+        the combination of parameter values is impossible. ``table.meta["invalid"]`` has the reasons why the first few
+        points are invalid. With `gradient`, a missing derivative is nan, and the column ``gradient_gap`` has the
+        reason.
 
     Raises
     ------
     ValueError
         Raised if a preset, parameter, option or unit is unknown. Raised if columns have different lengths or masked
-        values. Raised if a parameter is a column and also a keyword. Raised if a parameter of a model is missing.
-        Raised if derivatives are requested with respect to a choice, a whole number or a derived parameter. A grid with
-        mistakes raises GridError.
+        values. Raised if a parameter is given as a column and as a keyword argument. Raised if a parameter of a model
+        is missing. Raised if derivatives are requested with respect to a choice, a whole number or a derived parameter.
+        A grid with mistakes raises GridError.
     TypeError
         Raised if an argument has the wrong type.
 

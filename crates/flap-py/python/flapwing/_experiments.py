@@ -20,7 +20,7 @@ def chirp(
     samples: SupportsIndex | None = None,
     **keywords: Value,
 ) -> Table:
-    """Simulate a chirp: the drive frequency of one design point changes at a constant rate, from rest.
+    """Simulate a chirp from rest: a motion of one design point whose drive frequency changes at a constant rate.
 
     Parameters
     ----------
@@ -76,7 +76,7 @@ def impulse(
     samples: SupportsIndex = 200,
     **keywords: Value,
 ) -> Table:
-    """Simulate the free motion of one design point after an impulse on the stroke of the wing at rest.
+    """Simulate the free motion of one design point after an impulse that sets the stroke of the resting wing in motion.
 
     During the motion, the drive voltage has a constant value, at which a wing at rest has zero stroke and pitch.
 
@@ -193,8 +193,8 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     """Compute stroke and pitch of a filmed wing from points that were tracked in the images of the film.
 
     The stroke is the angle from the x-axis to the leading edge, without jumps by 360°. The pitch is computed from the
-    length of the chord in the image. The centre of the stroke's rotation is the point nearest to all leading edges
-    (Ozaki and Hamaguchi 2018, eqs. 42 and 43).
+    length of the chord in the image. The centre of the stroke's rotation is the point nearest to the lines through all
+    leading edges (Ozaki and Hamaguchi 2018, eqs. 42 and 43).
 
     Parameters
     ----------

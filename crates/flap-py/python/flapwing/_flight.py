@@ -57,17 +57,17 @@ def fly(
         Gains of the controller in SI units, such as the result K of ``control.lqr``. By default, the flight has no
         controller.
     inputs : sequence of str, optional
-        Names of the inputs: parameters, or words as for `Vehicle.linear`. If `gains` is given, `inputs` is required.
-        The table has a column with the values of each input.
+        Names of the inputs: parameters, or the names such as ``"amplitude_difference"`` that `Vehicle.linear` accepts.
+        If `gains` is given, `inputs` is required. The table has a column with the values of each input.
     averaged : bool, optional
-        If True, the linear model about hover is simulated, without an integration error. By default, the coupled motion
-        of wings and body is simulated.
+        If True, the linear model about hover is solved exactly, without the error of a numerical integration. By
+        default, the coupled motion of wings and body is simulated.
     samples : int, optional
         Number of samples in each wing beat. By default, each row contains the means over one wing beat.
     point : int, optional
         The index of a point, if the vehicle is a grid with several points.
     progress : bool or function, optional
-        If True, a progress bar is shown, as for `sweep`. A flight is one step of the progress.
+        If True, a progress bar is shown, as for `sweep`. The progress bar advances only once, at the end of the flight.
     client : executor, optional
         An executor, such as a process pool (see `sweep`). The flight is simulated on one of the workers of the
         executor.
@@ -80,14 +80,15 @@ def fly(
         One row for each wing beat, with the time at the middle of the wing beat. The columns of the table are `time_s`,
         the states including the position, the inputs in SI units, and the force and torque of the air. Velocities and
         rates are in body axes, and the position is in fixed axes. The attitude results from rotations by the yaw angle,
-        then by the pitch angle, then by the roll angle. The attribute `meta` of the table also has the `disturbance`.
+        then by the pitch angle, then by the roll angle. The attribute `meta` of the table also contains the argument
+        `disturbance`.
 
     Raises
     ------
     ValueError
         Raised if the design is no vehicle, or a mass property is missing or impossible. Raised if a state or an input
-        is unknown, an input is derived, or the shape of `gains` is wrong. Raised if the motion of the wings is not
-        periodic.
+        is unknown, an input is a derived parameter, or the shape of `gains` is wrong. Raised if the motion of the wings
+        is not periodic.
     TypeError
         Raised if an argument has the wrong type.
 
@@ -129,7 +130,7 @@ def fly(
 
 
 def _matrix(gains: Any) -> list[list[float]]:
-    """Return the gains as rows of numbers."""
+    """Return the gains of the controller as a list of the rows of the matrix."""
     allowed = "it must be a matrix of numbers: one row for each input, one column for each of nine states"
     with reading("gains", gains, allowed):
         matrix = np.asarray(gains, dtype=np.float64)

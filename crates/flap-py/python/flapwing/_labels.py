@@ -61,7 +61,7 @@ def label(name: str, unit: str | None = None) -> str:
 
 
 def titled(text: str, unit: str) -> str:
-    """Return the words of a label, with the unit in parentheses if the unit is not empty."""
+    """Return the text of a label. If `unit` is not empty, the unit follows in parentheses."""
     return f"{text} ({unit})" if unit else text
 
 
@@ -71,7 +71,8 @@ def lowered(text: str) -> str:
 
 
 def number(value: float) -> str:
-    """Return a number as text with up to four digits, and with an exponent only if plain digits are long."""
+    """Return a number as text with up to four digits. Very large and very small numbers are written with a power of
+    ten."""
     text = f"{value:.4g}"
     if "e" not in text:
         return text.replace("-", "−")

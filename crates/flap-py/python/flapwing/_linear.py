@@ -36,7 +36,8 @@ class LinearModel:
     eigenvalues : complex array
         The eigenvalues of `A` (1/s), in falling order of the real part.
     modes : list of str
-        The motion that belongs to each eigenvalue, such as ``"pitch and forward velocity (longitudinal oscillation)"``.
+        Description of the motion of each eigenvalue's mode, such as ``"pitch and forward velocity (longitudinal
+        oscillation)"``.
     states, state_units : list of str
         Names and units of the states: velocities, rates and angles. With ``positions=True``, the states include the
         position.

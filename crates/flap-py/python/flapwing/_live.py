@@ -1,4 +1,4 @@
-"""The live page in a browser or a notebook, with sliders for parameters and curves that change with the sliders."""
+"""The live page in a browser or a notebook: sliders for parameters, and curves that change when a slider moves."""
 
 from __future__ import annotations
 

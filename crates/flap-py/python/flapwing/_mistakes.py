@@ -1,5 +1,5 @@
-"""Errors of arguments: values of a wrong type, objects that raise an exception when flap reads the object, and unknown
-names. Also the stack level of warnings."""
+"""Exceptions for wrong arguments: values of a wrong type, objects that cannot be read, and unknown names. The module
+also computes the stack level at which warnings are shown."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
 
 
 def known_names(names: Iterable[str]) -> str:
-    """Return a sentence with the first few known names, for messages."""
+    """Return a sentence that lists the first few of the known names, for error messages."""
     every = list(names)
     if not every:
         return "there are none"
@@ -40,14 +40,14 @@ def known_names(names: Iterable[str]) -> str:
 
 
 def refused(name: str, value: object, allowed: str) -> TypeError:
-    """Return the error for a value of the wrong type, with a message of two lines."""
+    """Return the TypeError for a value of the wrong type, with a message of two lines."""
     return TypeError(f"`{name}` is {type(value).__name__}\n{allowed}")
 
 
 @contextmanager
 def reading(name: str, value: object, allowed: str) -> Iterator[None]:
-    """Raise TypeError if reading `value` raises an exception. KeyboardInterrupt and similar exceptions are raised
-    unchanged.
+    """Convert an exception in the `with` block, which reads `value`, to a TypeError. An OverflowError becomes a
+    ValueError. KeyboardInterrupt and similar exceptions are raised unchanged.
     """
     try:
         yield
@@ -58,7 +58,7 @@ def reading(name: str, value: object, allowed: str) -> Iterator[None]:
 
 
 def raised(error: BaseException) -> str:
-    """Return an exception as one line, for messages."""
+    """Return the type and the first line of an exception as one line of text, for error messages."""
     try:
         message = next(iter(str(error).splitlines()), "")
     except Exception:

@@ -55,7 +55,7 @@ def optimise(
     progress : bool or function, optional
         If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
         numbers: the number of finished points and starts, and the number of all points and starts. With `client`, the
-        whole search is one step of the progress.
+        progress advances only once, at the end of the whole search.
     client : executor, optional
         An executor, such as a process pool (see `sweep`). The search runs on one of the workers of the executor.
     **keywords : float or str

@@ -39,8 +39,8 @@ def run(
         run("ozaki2018-large", drive_voltage_pp="80 V", hinge_stiffness=9e-5, lift_sign="printed")
         run("grid.toml", point=17)
 
-    The same call always returns the same numbers, equal to the last bit. The remaining Python threads continue to run
-    during the call.
+    The same call always returns the same numbers, equal to the last bit. Other Python threads of the program continue
+    to run during the call.
 
     Parameters
     ----------
@@ -50,23 +50,24 @@ def run(
     point : int, optional
         The index of a point in the grid, counted from 0. If the grid has more than one point, `point` is required.
     initial_state : dict, Table or DataFrame, optional
-        The state at the start of the first drive period. A dictionary has components by the names of `states`, such as
-        ``{"pitch": "10 deg"}``: numbers in SI units or text with units. Components of the state that are not given are
-        zero. You can also give a row that has columns of the states, such as ``trajectory(…)[-1:]``. A row with states
-        is a Table, a DataFrame, a dictionary or a row of a DataFrame. If a state in the given row is nan, the motion
-        begins at rest. If the design has several orbits, the state determines the orbit that is found. By default, the
-        motion begins at rest.
+        The state at the start of the first drive period. A dictionary contains components of the state by name, such as
+        ``{"pitch": "10 deg"}``: numbers in SI units or text with units. The function `states` lists the names of the
+        components. Components of the state that are not given are zero. You can also give a row that has columns of the
+        states, such as ``trajectory(…)[-1:]``. A row with states is a Table, a DataFrame, a dictionary or a row of a
+        DataFrame. If a state in the given row is nan, the motion begins at rest. If the design has several orbits, the
+        state determines the orbit that is found. By default, the motion begins at rest.
     waveform : path, tuple or columns, optional
         One period of the drive waveform, which replaces the parameter `drive_shape`. A CSV file or columns (a
-        dictionary, Table or DataFrame) have `time_s` (or `time_ms`) and `wave`. You can also give a pair of arrays: the
-        times in s, and `wave`. The drive period is the duration of the waveform, unless the keyword `drive_frequency`
-        is given. The drive voltage is the bias plus the amplitude times `wave`.
+        dictionary, Table or DataFrame) must contain the columns `time_s` (or `time_ms`) and `wave`. You can also give a
+        pair of arrays: the times in s, and `wave`. The drive period is the duration of the waveform, unless the keyword
+        `drive_frequency` is given. The drive voltage is the bias plus the amplitude times `wave`.
     stroke : path, tuple or columns, optional
         One period of a prescribed stroke: a CSV file or columns with `time_s` and `stroke_deg` (or `stroke_rad`). You
         can also give a pair of arrays: the times in s, and the stroke in rad. The model must have the parameter
         `stroke_mode`.
     progress : bool or function, optional
-        If True, a progress bar is shown, as for `sweep`. A single point is one step of the progress.
+        If True, a progress bar is shown, as for `sweep`. The progress bar advances only once, at the end of the
+        computation.
     client : executor, optional
         An executor, such as a process pool (see `sweep`). The point runs on one of the workers of the executor. With
         and without `client`, the result is the same.

@@ -1,4 +1,4 @@
-"""The progress of long calls, shown as a progress bar or reported to a function that the user gives."""
+"""The progress of long function calls, shown as a progress bar or reported to a function of the user."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ Progress = bool | Callable[[int, int], object]
 
 @contextmanager
 def shown(progress: Progress) -> Iterator[Callable[[int, int], object] | None]:
-    """Yield the function that reports progress. The arguments of the progress function are the number of finished
-    points and the number of all points. Yield None if no progress is shown.
+    """Yield the progress function, which shows or reports the progress. The arguments of the progress function are the
+    number of finished points and the number of all points. Yield None if no progress is shown.
     """
     if callable(progress):
         yield progress

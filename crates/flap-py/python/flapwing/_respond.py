@@ -38,12 +38,12 @@ def respond(
     ----------
     design : str, path, dict or Grid
         A preset or a grid (see `Grid`). The grid can have an axis for the followed parameter. Each combination of the
-        values of the remaining axes is one design with one curve.
+        values of all other axes is one design with one curve.
     parameter : str, optional
         The parameter that rises and falls. The default of `parameter` is ``"drive_frequency"``.
     start, stop, step : float or str, optional
-        First value, last value and step of the followed parameter: numbers in SI units, or text with units. The
-        defaults of `start`, `stop` and `step` are the values of the parameter's axis in the grid.
+        First value, last value and step of the followed parameter: numbers in SI units, or text with units. By default,
+        `start`, `stop` and `step` are taken from the axis of this parameter in the grid.
     tolerance : float or str, optional
         Longest allowed step of the followed parameter at the ends of bistable bands and where the response is steep.
         The default of `tolerance` is a sixteenth of the shortest step.
@@ -54,8 +54,8 @@ def respond(
         If True, the table also has columns with the state of each motion at the beginning of a drive period. You can
         pass the table as `initial_state` of `evaluate`.
     threads, progress
-        The number of threads and the progress report, as for `sweep`. A progress function is called with the numbers of
-        finished and of all designs.
+        The number of threads and the progress report, as for `sweep`. A progress function is called with two numbers:
+        the number of finished designs, and the number of all designs.
     client : executor, optional
         An executor, such as a process pool (see `sweep`). Each task of the workers follows one design. With and without
         `client`, the rows are the same.
@@ -141,8 +141,8 @@ def edges(
     ----------
     design : str, path, dict or Grid
         A preset or a grid (see `Grid`). If the grid has an axis for the first parameter, each combination of the values
-        of the remaining axes is one design. The value of the second parameter in each design must be
-        between `edge_start` and `edge_stop`.
+        of all other axes is one design. The value of the second parameter in each design must be between `edge_start`
+        and `edge_stop`.
     first, second : str, optional
         The two parameters of the plane. The default of `first` is ``"drive_frequency"``, and the default of `second` is
         ``"drive_voltage_pp"``.
@@ -152,8 +152,8 @@ def edges(
         Step of the second parameter. With `edge_step`, the table has only cusps, turns, ends of edges, and points at
         multiples of the step, counted from `edge_start`. Without `edge_step`, the table has all computed points.
     start, stop, step : float or str, optional
-        First value, last value and step of the first parameter, as for `respond`. The defaults of `start`, `stop` and
-        `step` are the values of the first parameter's axis in the grid.
+        First value, last value and step of the first parameter, as for `respond`. By default, `start`, `stop` and
+        `step` are taken from the axis of the first parameter in the grid.
     tolerance : float or str, optional
         Longest allowed step of the first parameter at the ends of bistable bands, as for `respond`.
     threads : int, optional
@@ -166,10 +166,10 @@ def edges(
     -------
     Table
         One row per point, in order along the edge. The first columns of the table are the parameters of the design,
-        `edge` (number of the edge), and `kind` (``"fold"``, ``"period_doubling"`` or ``"torus"``). The remaining
-        columns of the table are `mark` (``"cusp"``, ``"turn"`` or empty), the two followed parameters, `floquet_max`,
-        and the measures. ``meta["edges"]`` has a summary of each edge in one line. A design without hysteresis has no
-        rows. A warning names each end of a band at which no edge was found.
+        `edge` (number of the edge), and `kind` (``"fold"``, ``"period_doubling"`` or ``"torus"``). The last columns of
+        the table are `mark` (``"cusp"``, ``"turn"`` or empty), the two followed parameters, `floquet_max`, and the
+        measures. ``meta["edges"]`` has a summary of each edge in one line. A design without hysteresis has no rows. A
+        warning names each end of a band at which no edge was found.
 
     Raises
     ------

@@ -132,7 +132,8 @@ class Parameter(_Result):
     value : float or str
         Value of the parameter in the design, in SI units, or the name of the chosen option. For a grid, `value` is the
         value at the first point. `value` is nan if a search computes the value for each point, such as the resonance.
-        `value` is also nan if the parameter is not set and is computed by the model, and for a model.
+        `value` is also nan if the parameter is not set, so that the model computes the value. For a model without a
+        design, the values of all parameters are nan.
     unit : str
         SI unit of the parameter, or ``""`` for pure numbers and options.
     symbol : str
@@ -363,10 +364,10 @@ class Optimum(_Result):
     Attributes
     ----------
     status : str
-        `status` is ``"optimal"`` if the derivatives confirm that no small change improves the design. Differences
-        of rows replace missing derivatives. `status` is ``"approximate"`` if the derivatives do not confirm the design.
-        `status` is ``"infeasible"`` if no design satisfies all conditions. An infeasible design is the design with the
-        smallest violation of the conditions.
+        `status` is ``"optimal"`` if the derivatives confirm that no small change improves the design. If a derivative
+        is missing, `optimise` estimates the derivative from the difference between computed rows. `status` is
+        ``"approximate"`` if the derivatives do not confirm the design. `status` is ``"infeasible"`` if no design
+        satisfies all conditions. An infeasible design is the design with the smallest violation of the conditions.
     goal : str
         The expression that was maximised or minimised.
     value : float

@@ -35,11 +35,12 @@ def sweep(
         The grid whose points are run (see `Grid`). A preset counts as a grid with one point. The table ``[output]`` of
         the grid chooses the columns, but the entry `path` of ``[output]`` is not used.
     out : path, optional
-        File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. The sweep writes each row as soon as possible. The
-        command ``flap sweep --out`` writes a file with the same bytes. The sidecar, which is a file in the folder of
-        `out`, records the origin of the rows. If `out` has unfinished results of the grid, the sweep continues
-        after the last row. If `out` has all rows, no point is run. If `out` has anything except results of the grid,
-        the sweep raises an error. By default, rows are kept in memory, with about half a kilobyte for each row.
+        File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. The sweep writes each row to the file as soon as
+        possible. The command ``flap sweep --out`` writes a file with the same bytes. The sidecar, which is a file in
+        the folder of `out`, records the origin of the rows. If `out` has unfinished results of the grid, the sweep
+        continues after the last row. If `out` has all rows, no point is run. If `out` has anything except results of
+        the grid, the sweep raises an error. By default, rows are kept in memory, with about half a kilobyte for each
+        row.
     restart : bool, optional
         If True, the sweep computes all rows again, and replaces the results in `out` when the new results are complete.
     threads : int, optional
@@ -75,8 +76,8 @@ def sweep(
         varied and derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`,
         `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. The entry ``columns`` of ``[output]`` chooses among the
         columns after `status`. A point without a periodic motion has a row with a status and without measures. If `out`
-        is given, the table reads the file when a column is used for the first time. If the file then has rows of
-        another sweep, ValueError is raised.
+        is given, the table reads the file when a column is used for the first time. If another sweep has replaced the
+        rows in the file before that time, ValueError is raised.
 
     Raises
     ------

@@ -135,9 +135,9 @@ class Vehicle(_Entries):
         as ``"85 mg"``.
     trim : str, optional
         If `trim` is ``"hover"``, each design is computed at hover: flap searches for the inputs at which the lift
-        equals the weight and all torques are zero. The rows of a trimmed vehicle also have the inputs. Two further
-        columns describe the mode of motion about hover that grows fastest: the growth rate and the period. `trim`
-        requires `total_mass`.
+        equals the weight and all torques are zero. The rows of a trimmed vehicle also contain the values of the inputs
+        at hover. Two further columns describe the mode of motion about hover that grows fastest: the growth rate and
+        the period. `trim` requires `total_mass`.
     damping : bool
         If True, rows also have the 36 derivatives of mean force and torque with respect to the velocity and the rates
         of the body.
@@ -229,8 +229,8 @@ class Vehicle(_Entries):
         ------
         ValueError
             Raised if a mass property is missing or impossible, an input is unknown or derived, or the motion of the
-            wings is not periodic. Raised if `trim` is true, but the vehicle hovers at no values of the inputs near the
-            point.
+            wings is not periodic. Raised if `trim` is true, but no values of the inputs near the point make the vehicle
+            hover.
 
         Examples
         --------
@@ -289,14 +289,14 @@ def _listed(wings: Any) -> list[Any]:
 
 
 def _wing(place: int, wing: Any) -> dict[str, Any]:
-    """Return the entries of a wing."""
+    """Return a wing as a dictionary of its entries in a grid file."""
     if not isinstance(wing, Mapping):
         raise refused(f"wings[{place}]", wing, "it must be a flapwing.Wing, or a dictionary of its entries")
     return dict(wing)
 
 
 def _vector(name: str, given: Any) -> list[Any]:
-    """Return a list of three lengths."""
+    """Return a position as a list of three lengths along x, y and z."""
     allowed = f'it must be three lengths along {_AXES}, such as ["0 mm", "4 mm", "0 mm"]'
     if isinstance(given, (str, bytes, Mapping)) or not isinstance(given, Iterable):
         raise refused(name, given, allowed)

@@ -27,7 +27,8 @@ _UNKNOWN_WORKERS = 16
 
 
 def call(client: Executor | None, function: Callable[..., Any], design: Any, *arguments: Any, **keywords: Any) -> Any:
-    """Return the result of a native function for a design. If a client is given, a worker calls the function."""
+    """Call a function of the compiled module for a design, and return the result. If `client` is given, one of its
+    workers calls the function."""
     if client is None:
         return function(design, *arguments, **keywords)
     keywords = {name: _absolute(value) if name in ("waveform", "stroke") else value for name, value in keywords.items()}
@@ -41,7 +42,8 @@ def call(client: Executor | None, function: Callable[..., Any], design: Any, *ar
 def _call_task(
     name: str, design: Any, arguments: tuple[Any, ...], keywords: dict[str, Any]
 ) -> tuple[dict[str, str], Any]:
-    """Run the task of a worker: return the identity of the worker and the result of the native function `name`."""
+    """Call the function `name` of the compiled module in a worker. Return the identity of the worker's process and the
+    result of the function."""
     keywords = {key: _aligned(value) if isinstance(value, dict) else value for key, value in keywords.items()}
     return _flapwing.identity(), getattr(_flapwing, name)(design, *arguments, **keywords)
 
@@ -57,13 +59,13 @@ def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _absolute(record: Any) -> Any:
-    """Return a waveform or a motion that workers can read. A path to a file is made absolute."""
+    """Return a waveform or a motion in a form that workers can read: the path of a file becomes an absolute path."""
     return os.path.abspath(record) if isinstance(record, str) else record
 
 
 def _portable(design: Any) -> Any:
-    """Return a design that workers can read. The name of a preset is unchanged, and the files in a grid get absolute
-    paths.
+    """Return a design in a form that workers can read. The name of a preset is unchanged, and the paths of a grid
+    become absolute paths.
     """
     if isinstance(design, str) and design in _flapwing.presets():
         return design
@@ -125,7 +127,7 @@ class Chunks:
 def grid_chunks(
     grid: Grid, client: Executor, threads: SupportsIndex | None, points_per_task: SupportsIndex | None
 ) -> Chunks:
-    """Return the chunks of the points of a grid."""
+    """Return the rows of all points of a grid, in chunks that workers compute."""
     # Workers resolve the files of the grid to the same absolute paths as this process.
     name, text = os.path.abspath(grid.name), grid.text
     threads = 1 if threads is None else threads
@@ -137,7 +139,7 @@ def grid_chunks(
 
 
 def _grid_task(name: str, text: str, begin: int, end: int, threads: SupportsIndex) -> bytes:
-    """Run the task of a worker: return the rows of a range of points of a grid, as bytes."""
+    """Compute a range of the points of a grid in a worker, and return the rows as bytes."""
     return _flapwing.part(Grid._named(name, text), begin, end, threads=threads)
 
 
@@ -150,7 +152,8 @@ def batch_chunks(
     threads: SupportsIndex | None,
     points_per_task: SupportsIndex | None,
 ) -> Chunks:
-    """Return the chunks of a batch with the columns `columns`. Each task has whole rows of the columns."""
+    """Return the rows of a batch in chunks that workers compute. Each task contains all points of some rows of
+    `columns`."""
     rows = len(next(iter(columns.values())))
     per_row = max(1, len(batch) // max(1, rows))
     design, states = _portable(design), options["initial_state"]
@@ -168,16 +171,16 @@ def batch_chunks(
 def _batch_task(
     design: Any, options: dict[str, Any], columns: dict[str, Any], first: int, threads: SupportsIndex
 ) -> bytes:
-    """Run the task of a worker: return the rows of a range of points of a batch, as bytes. The points are given as
-    columns of parameters, and `first` is the number of the first point in the whole batch.
+    """Compute a range of the points of a batch in a worker, and return the rows as bytes. The points are given as
+    columns of parameters, and `first` is the index of the first point in the whole batch.
     """
     batch = _flapwing.batch(design, _aligned(columns), **_aligned(options))
     return _flapwing.part(batch, 0, len(batch), first=first, threads=threads)
 
 
 def _task_size(client: Executor, points: int, threads: SupportsIndex, points_per_task: SupportsIndex | None) -> int:
-    """Return the number of points of a task. By default, a task is so small that every worker gets points, even if the
-    number of points is small.
+    """Return the number of points in a task. By default, tasks are small enough that every worker gets points, even if
+    the number of points is small.
     """
     if points_per_task is not None:
         return _arguments.count("points_per_task", points_per_task)
@@ -186,12 +189,13 @@ def _task_size(client: Executor, points: int, threads: SupportsIndex, points_per
 
 
 def _columns(parts: list[dict[str, Any]]) -> dict[str, Column]:
-    """Join the columns of all responses, and return the joined columns."""
+    """Return the columns of one table that contains the rows of all responses."""
     return {name: _column([Column(*part["columns"][name]) for part in parts]) for name in parts[0]["columns"]}
 
 
 def _column(parts: list[Column]) -> Column:
-    """Join one column of all responses. The parts of a text column can have different lists of words."""
+    """Return one column that contains the cells of this column in all responses. The responses can have different lists
+    of words for a column of text."""
     cells = [one.cells for one in parts]
     if parts[0].words is None:
         return parts[0]._replace(cells=np.concatenate(cells))
@@ -205,7 +209,7 @@ def _column(parts: list[Column]) -> Column:
 def _respond_task(
     design: Any, parameter: str, options: dict[str, Any], curve: int, threads: SupportsIndex | None
 ) -> dict[str, Any]:
-    """Run the task of a worker: return the curve of one design."""
+    """Follow the response of one design in a worker, and return the curve."""
     return _flapwing.respond(design, parameter, threads=threads, curves=[curve], **options)
 
 
@@ -217,7 +221,7 @@ def responses(
     threads: SupportsIndex | None,
     show: Callable[[int, int], object] | None,
 ) -> dict[str, Any]:
-    """Return the responses of designs. Workers compute the responses."""
+    """Return the responses of all designs of a grid. Each task of the workers computes one response."""
     # This call reports mistakes. It returns no rows.
     empty = _flapwing.respond(design, parameter, threads=threads, curves=[], **options)
     designs = empty["designs"]
@@ -275,7 +279,7 @@ def _results(
 
 
 def _number_of_workers(client: Any) -> int:
-    """Return the number of tasks that run at the same time."""
+    """Return the number of tasks that the workers of `client` can run at the same time."""
     if hasattr(client, "nthreads"):
         return sum(client.nthreads().values()) or _UNKNOWN_WORKERS
     # `num_workers` is mpi4py's; process pools and thread pools have only the private attribute.

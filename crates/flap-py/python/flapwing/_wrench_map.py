@@ -49,8 +49,8 @@ class WrenchMap:
     largest_error : array of shape (6,)
         Largest error of each component on the rows that were left out of the fit, in mN and µN·m.
     rows : dict of str to int
-        Number of rows in the fit (``"fitted"``), and number of rows that were left out of the fit (``"left_out"``). The
-        further keys are the statuses of rows without a periodic motion, with the number of rows.
+        Number of rows in the fit (``"fitted"``), and number of rows that were left out of the fit (``"left_out"``). All
+        other keys are statuses of rows without a periodic motion, each with the number of rows.
     floquet_max : float
         Largest Floquet multiplier of all rows. If the largest multiplier is more than 0.7, the ranges of the inputs are
         near a steep part of the response.
@@ -146,8 +146,8 @@ def wrench_map(
         change the map.
     progress : bool or function, optional
         If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
-        numbers: the number of finished rows, and the number of all rows. With `client`, the whole map is one step of
-        the progress.
+        numbers: the number of finished rows, and the number of all rows. With `client`, the progress advances only
+        once, when the whole map is computed.
     client : executor, optional
         An executor, such as a process pool (see `sweep`). The map is computed on one of the workers of the executor.
     **keywords : float or str
