@@ -20,7 +20,7 @@ use coefficients::{FIG_3, highest};
 use oscillators::{DAMPING, HeldWing, Linear, TABLE_I};
 use response::{Response, peaks, response};
 
-/// Forces at which the wing with a hinge shows different regimes.
+/// Amplitudes of the drive force, at which the wing with a hinge has motions of different kinds.
 const FORCES: [f64; 4] = [0.2, 0.3, 0.4, 0.5];
 
 fn main() -> ExitCode {
@@ -36,7 +36,7 @@ fn main() -> ExitCode {
     ExitCode::SUCCESS
 }
 
-/// Stroke per force of the oscillators against the frequency, in a long table.
+/// Prints the stroke per force of each oscillator over the frequency, with one row per force and frequency.
 fn figure_2() {
     println!("oscillator,force,frequency_ratio,stroke_per_force,hinge_amplitude_deg");
     for force in FORCES {
@@ -54,7 +54,7 @@ fn print_curve(name: &str, force: f64, curve: &[Response], hinge: bool) {
     }
 }
 
-/// Coefficients against the pitch.
+/// Prints the lift and drag coefficients over the pitch.
 fn figure_3() {
     println!("hinge_angle_deg,lift_coefficient,drag_coefficient,lift_to_drag");
     for degrees in 0..=90 {
@@ -65,7 +65,7 @@ fn figure_3() {
     }
 }
 
-/// The statements of the paper's text.
+/// Prints statements from the text of the paper with the numbers that this program computes.
 fn summary() {
     let (angle, ratio) = highest(|degrees| FIG_3.lift_to_drag(degrees));
     println!("lift over drag is largest at a pitch of {angle:.2} deg: {ratio:.3} (paper: about 70 deg)");

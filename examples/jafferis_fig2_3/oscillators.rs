@@ -1,7 +1,7 @@
-//! The three oscillators of Fig. 2, as new equations for flap's integrator.
+//! The equations of the three oscillators of Fig. 2, for flap's integrator.
 //!
-//! Stroke x and pitch ψ are in radians, and the time is in units of 1/ω₀, with the undamped resonance ω₀. A force F sin
-//! ωt drives each oscillator.
+//! Stroke x and pitch ψ are in radians. The unit of time is 1/ω₀, where ω₀ is the undamped resonance. A force
+//! F sin ωt drives each oscillator.
 
 use flap_core::num::Real;
 use flap_core::ode::Ode;
@@ -23,18 +23,19 @@ flap_core::per_lane! {
 
 /// An oscillator with `N` states.
 pub(crate) trait Oscillator<const N: usize>: Sync {
-    /// Rates of the states under a force.
+    /// Returns the time derivatives of the states at a given force.
     fn rates<R: Real>(&self, c: &Drive<R>, force: R, y: &[R; N]) -> [R; N];
 }
 
-/// An oscillator under its force: a system of differential equations.
+/// The differential equations of an oscillator that is driven by a sinusoidal force.
 pub(crate) struct Forced<O>(pub(crate) O);
 
 impl<O: Oscillator<N>, const N: usize> Ode<N> for Forced<O> {
     type Constants<R: Real> = Drive<R>;
     type Input<R: Real> = R;
 
-    /// The force at time `t`. Values that depend only on time are computed separately from the state.
+    /// Returns the force at time `t`. The integrator computes values that depend only on time separately from
+    /// the rates of the state.
     #[inline(always)]
     fn input<R: Real>(&self, c: &Drive<R>, t: R) -> R {
         c.force * (c.frequency * t).sin()
@@ -46,7 +47,7 @@ impl<O: Oscillator<N>, const N: usize> Ode<N> for Forced<O> {
     }
 }
 
-/// (i) Damping in proportion to the speed.
+/// Oscillator (i): the damping is proportional to the speed.
 ///
 /// ```text
 /// ẍ + x + d ẋ = F sin ωt
@@ -61,7 +62,7 @@ impl Oscillator<2> for Linear {
     }
 }
 
-/// (ii) Damping by the drag of a wing that is held at one pitch.
+/// Oscillator (ii): the damping is the drag of a wing whose pitch is constant.
 ///
 /// ```text
 /// ẍ + x + d C_D |ẋ|ẋ = F sin ωt
@@ -72,7 +73,7 @@ pub(crate) struct HeldWing {
 }
 
 impl HeldWing {
-    /// A wing at a pitch (deg).
+    /// Returns a wing with the constant pitch `degrees`.
     pub(crate) fn at(degrees: f64) -> HeldWing {
         HeldWing { drag: FIG_3.drag((2.0 * degrees).to_radians().cos()) }
     }
@@ -86,7 +87,7 @@ impl Oscillator<2> for HeldWing {
     }
 }
 
-/// (iii) Damping by the drag of a wing that turns on its hinge, Eqs. (1) and (2).
+/// Oscillator (iii): the damping is the drag of a wing that turns on its hinge, as in Eqs. (1) and (2).
 ///
 /// ```text
 /// ẍ + x + d C_D(ψ) |ẋ|ẋ = F sin ωt
@@ -95,19 +96,19 @@ impl Oscillator<2> for HeldWing {
 pub(crate) struct TurningWing {
     /// Stiffness k of the hinge divided by the wing's inertia.
     pub(crate) stiffness: f64,
-    /// Damping c of the hinge.
+    /// Damping coefficient c of the hinge.
     pub(crate) damping: f64,
-    /// Moment m of the air.
+    /// Coefficient m of the aerodynamic moment about the hinge.
     pub(crate) moment: f64,
     /// Coupling inertia j divided by the wing's inertia.
     pub(crate) coupling: f64,
 }
 
-/// The ratios of Table I, in round numbers.
+/// The ratios that follow from the parameters of Table I, as rounded numbers.
 pub(crate) const TABLE_I: TurningWing =
     TurningWing { stiffness: 2.15, damping: 0.32, moment: 1.1, coupling: 0.66 };
 
-/// The damping of the stroke in Table I, for a drag coefficient of 1.
+/// The damping coefficient of the stroke for a drag coefficient of 1, computed from Table I.
 pub(crate) const DAMPING: f64 = 0.67;
 
 impl Oscillator<4> for TurningWing {

@@ -1,4 +1,4 @@
-//! Amplitudes of settled motions: the curves of Fig. 2.
+//! Amplitudes of settled motions, which are the curves of Fig. 2.
 
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
@@ -11,13 +11,14 @@ use super::oscillators::{Drive, Forced, Oscillator};
 
 const TOLERANCES: Tolerances = Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 10_000 };
 
-/// The tolerance of a settled motion: the largest change of the state from period to period.
+/// A motion has settled if the state changes by less than this number from one period to the next.
 const SETTLED: f64 = 1e-4;
 
-/// Largest number of periods of a motion, even if the motion has not settled.
+/// Largest number of simulated periods. After this number of periods, the simulation ends even if the motion
+/// has not settled.
 const PATIENCE: u32 = 400;
 
-/// Frequencies of the curves, as ratios to the undamped resonance.
+/// Returns the frequencies at which the curves are computed, as multiples of the undamped resonance.
 pub(crate) fn frequencies() -> impl Iterator<Item = f64> {
     (50..=140).map(|percent| f64::from(percent) / 100.0)
 }
@@ -27,13 +28,13 @@ pub(crate) fn frequencies() -> impl Iterator<Item = f64> {
 pub(crate) struct Response {
     /// Frequency divided by the undamped resonance.
     pub(crate) frequency: f64,
-    /// Amplitude of the stroke per force.
+    /// Amplitude of the stroke divided by the amplitude of the force.
     pub(crate) stroke: f64,
-    /// Amplitude of the second state: of the pitch (rad), if the oscillator has a pitch.
+    /// Amplitude of the second state, which is the pitch (rad) if the oscillator has a pitch.
     pub(crate) second: f64,
 }
 
-/// The response of an oscillator to a force, over the frequency.
+/// Returns the response of an oscillator to a force of constant amplitude, at each frequency.
 pub(crate) fn response<const N: usize>(
     oscillator: impl Oscillator<N>,
     force: f64,
@@ -48,7 +49,7 @@ pub(crate) fn response<const N: usize>(
         .collect()
 }
 
-/// Amplitudes of the states once the motion repeats with every period of the drive.
+/// Returns the amplitudes of the states after the motion has settled, so that every drive period is the same.
 fn settled_amplitudes<O, const N: usize>(ode: &O, constants: Drive<f64>) -> [f64; N]
 where
     O: Ode<N, Constants<f64> = Drive<f64>>,
@@ -91,7 +92,7 @@ where
     std::array::from_fn(|i| 0.5 * (most[i] - least[i]))
 }
 
-/// The points of a curve at which the stroke is larger than at both neighbours.
+/// Returns the points of a curve at which the stroke is larger than at the two neighbouring points.
 pub(crate) fn peaks(curve: &[Response]) -> Vec<Response> {
     curve
         .windows(3)

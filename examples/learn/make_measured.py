@@ -26,7 +26,7 @@ SEED = 1
 
 
 def readings() -> str:
-    """Return the text of measured.csv."""
+    """Return the contents of the file measured.csv as text."""
     voltage, frequency = np.repeat(VOLTAGES, len(FREQUENCIES_HZ)), np.tile(FREQUENCIES_HZ, len(VOLTAGES))
     points = {"drive_voltage_pp": voltage, "drive_frequency": frequency}
     rows = flapwing.evaluate(str(ROBOT), points, **BUILT)

@@ -1,6 +1,6 @@
-//! The equations of motion and the measures.
-//! A bimorph of Jafferis, Graule and Wood (2016) with constant stiffness and a sinusoidal force. The equations are Eqs.
-//! (1), (2) and (8) to (11) of the paper, with the numbers of its Table I.
+//! The equations of motion and the measures of this example. The model is a bimorph of Jafferis, Graule and
+//! Wood (2016) with constant stiffness and a sinusoidal force. The equations are Eqs. (1), (2) and (8) to
+//! (11) of the paper, with the numbers of its Table I.
 
 #[path = "constants.rs"]
 mod constants;
@@ -31,13 +31,15 @@ flap_core::per_lane! {
 }
 
 impl Drive<f64> {
-    /// A force of this amplitude (N) and frequency (Hz).
+    /// Returns the drive constants of a force with the amplitude `force` (N) and the frequency `frequency`
+    /// (Hz).
     pub(crate) fn new(force: f64, frequency: f64) -> Drive<f64> {
         Drive { force: force / MASS, frequency: core::f64::consts::TAU * frequency }
     }
 }
 
-/// The wing: tip of the actuator (m), its rate, pitch (rad), its rate.
+/// The model. The states are the displacement (m) and the speed of the actuator's tip, the pitch (rad) and
+/// the pitch rate.
 pub(crate) struct Wing;
 
 impl Ode<4> for Wing {
@@ -84,7 +86,7 @@ flap_core::per_lane! {
     }
 }
 
-/// Measures peaks and lift.
+/// Computes the largest displacement, the largest pitch and the integral of the lift.
 pub(crate) struct Measured;
 
 impl Observer<Wing, 4> for Measured {
@@ -116,7 +118,8 @@ impl Observer<Wing, 4> for Measured {
     }
 }
 
-/// The larger of `so_far` and the magnitude of a state at the time in the step at which its rate changes sign.
+/// Returns the larger of `so_far` and the peak of a state in this step. The state has a peak where its rate
+/// changes sign.
 #[inline(always)]
 fn peak<R: Lanes>(attempt: &Attempt<'_, R, 4>, accepted: R::Mask, state: usize, rate: usize, so_far: R) -> R {
     let Attempt { h, step, .. } = *attempt;

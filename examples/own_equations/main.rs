@@ -1,13 +1,14 @@
-//! New equations in flap's integrator: thousands of runs in SIMD lanes.
+//! Integrates your own equations with flap's integrator: thousands of runs in SIMD lanes.
 //!
 //! ```sh
 //! cargo run --release -p flap-core --example own_equations -- POINTS.csv RTOL OUT.csv [SET]
 //! ```
 //!
 //! POINTS.csv has the columns `id,F0,f`: number, amplitude of the force (N) and frequency (Hz). Each point is run for
-//! 40 drive periods from rest. OUT.csv contains the amplitudes of tip and pitch and the mean lift, over the last five
-//! periods. The program prints the time of the runs to stdout, as JSON. SET is the name of the SIMD instructions:
-//! avx512, avx2, neon or scalar. Without SET, the program uses the fastest instructions of the processor.
+//! 40 drive periods from rest. OUT.csv contains the amplitudes of the actuator's tip and of the pitch, and
+//! the mean lift, over the last five periods. The program prints the computing time of all runs to stdout, as
+//! JSON. SET is the name of a SIMD instruction set: avx512, avx2, neon or scalar. Without SET, the program
+//! uses the fastest instructions of the processor.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it finds")]
 
@@ -29,7 +30,7 @@ const PERIODS: [u32; 2] = [35, 5];
 
 type Begin = Start<Drive<f64>, 4>;
 
-/// Number, force (N) and frequency (Hz) of a point.
+/// A point: its number, the amplitude of the force (N) and the frequency (Hz).
 type Point = (String, f64, f64);
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -66,7 +67,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// The points of a file.
+/// Returns the points in the text of a file.
 fn read(text: &str) -> Result<Vec<Point>, Box<dyn Error>> {
     let rows = text.lines().skip(1).map(|line| {
         let cells: Vec<&str> = line.split(',').collect();
@@ -76,12 +77,13 @@ fn read(text: &str) -> Result<Vec<Point>, Box<dyn Error>> {
     rows.collect()
 }
 
-/// Processor time of this process.
+/// Returns the processor time that this process has used.
 fn cpu_time() -> Result<Duration, nix::Error> {
     clock_gettime(ClockId::CLOCK_PROCESS_CPUTIME_ID).map(Duration::from)
 }
 
-/// The sums over the last periods of every run, and the number of right-hand sides of all runs.
+/// The measures over the last periods of every run, and the number of evaluations of the right-hand side in
+/// all runs.
 struct Found {
     sums: Vec<Sums<f64>>,
     rhs_evals: u64,
@@ -109,7 +111,7 @@ fn integrated(backend: Backend, points: &[Point], tolerances: &Tolerances) -> Fo
 mod tests {
     use super::*;
 
-    /// Reference numbers in tests/data: a long-double solver computed them at a tolerance of 1e-12, with 2,048 samples
+    /// Reference numbers from a solver in long double precision, with a tolerance of 1e-12 and 2,048 samples
     /// per period.
     const REFERENCE: &str = include_str!("../../tests/data/own_equations.csv");
 

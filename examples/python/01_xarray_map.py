@@ -1,4 +1,4 @@
-"""The largest lift of each design and the frequency of the largest lift, over hinge stiffness and voltage.
+"""A map of the largest lift and of the frequency of the largest lift, over hinge stiffness and voltage.
 
 The script sweeps a wing of Ozaki et al. over hinge stiffness, voltage and frequency, and converts the result to
 labelled arrays. The script then selects designs by value, finds the best frequency of each design, interpolates between
@@ -98,7 +98,8 @@ def main() -> None:
 
 
 def step(atlas: xarray.Dataset, dimension: int) -> int:
-    """Return the step between the printed values along an axis of the map, so that at most eight values are printed."""
+    """Return a step for printing the values along an axis of the map. With this step, at most eight values are
+    printed."""
     return -(-list(atlas["lift_mean_mn"].shape)[dimension] // 8)
 
 

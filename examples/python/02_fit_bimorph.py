@@ -1,8 +1,8 @@
 """A fit of hinge stiffness, wing inertia and drag to a measured frequency response.
 
-The data are a CSV file with the column `frequency_hz` and one or more measures such as `stroke_pp_deg`. Without a file,
-the script simulates the response of a bimorph with changed parameters, and adds noise. The script then compares the
-fitted parameters with the changed parameters.
+The data are a CSV file with the column `frequency_hz` and one or more measures such as `stroke_pp_deg`. If no file is
+given, the script simulates the response of a bimorph with changed parameters, and adds noise. The script then compares
+the fitted parameters with the changed parameters.
 
     python 02_fit_bimorph.py measured.csv --voltage 160
     python 02_fit_bimorph.py

@@ -1,11 +1,11 @@
 """Tolerances of a build: linear propagation with exact derivatives, compared with 2,048 sampled builds.
 
-Six parameters of the bimorph of Jafferis et al. vary by 1 % and by 5 % (standard deviations). From one row with
-derivatives, the standard deviation of a measure is sqrt(sum of (derivative * deviation)^2). From the sample, the
-standard deviation is computed directly. The two standard deviations agree if the measure is nearly linear over the
-deviations of the parameters. Near a peak the two standard deviations differ, because the derivatives are small but
-every deviation lowers the measure. On the flank of a resonance the two standard deviations differ, because some builds
-lose most of the lift.
+Six parameters of the bimorph of Jafferis et al. vary by 1 % and by 5 % (standard deviations). The linear standard
+deviation of a measure is sqrt(sum of (derivative * deviation)^2), computed from one row with derivatives. The sampled
+standard deviation is computed from the rows of all builds. The linear and the sampled standard deviation agree if the
+measure is nearly linear over the deviations of the parameters. Near a peak they differ, because the derivatives are
+small but every deviation lowers the measure. On the flank of a resonance they differ, because some builds lose most of
+the lift.
 
     python 03_tolerance_linear.py
     python 03_tolerance_linear.py --deviation 0.02 --builds 4096
@@ -36,7 +36,7 @@ PART = 0.1
 
 
 def linear(frequency: float, deviation: float) -> Any:
-    """Return the relative standard deviations of the measures, from one row with derivatives."""
+    """Return the relative standard deviations of the measures, computed from one row with derivatives."""
     row = flapwing.evaluate(PRESET, {"drive_frequency": [frequency]}, measures=MEASURES, gradient=VARIED)
     values = flapwing.Grid({"preset": PRESET})[0]
     deviations = deviation * np.array([float(values[name]) for name in VARIED])

@@ -1,11 +1,11 @@
 """Sobol' indices of lift and power, for parameters that are known to within 10 %.
 
-A Sobol' index is the share of the variance of a result that one parameter causes. The first-order index S1 counts the
-parameter alone. The total index ST also counts all interactions of the parameter with other parameters. The sum of all
-first-order indices is at most 1, and interactions cause the rest of the variance. A parameter with a total index ST
-near 0 can have a fixed value.
+A Sobol' index is the share of the variance of a result that one parameter causes. The first-order index S1 is the
+effect of the parameter alone. The total index ST also includes all interactions of the parameter with other parameters.
+If the first-order indices of all parameters add up to less than 1, interactions cause the missing part of the variance.
+If the total index ST of a parameter is near 0, the parameter can have a fixed value.
 
-One call of `flapwing.evaluate` runs all points.
+One call of `flapwing.evaluate` computes all points of the sample.
 
     python 04_sobol_indices.py
     python 04_sobol_indices.py --size full
@@ -62,11 +62,11 @@ def uncertain_parameters(preset: str, spread: float) -> dict[str, Any]:
 
 
 def rows_of_whole_blocks(periodic: np.ndarray, parameters: int) -> np.ndarray:
-    """Return a mask, which is True for rows of blocks in which all rows are periodic.
+    """Return an array that is True for each row of a block in which all rows are periodic.
 
     Saltelli's sample consists of blocks of rows. A block contains two points, and copies of the first point in which
-    one parameter is taken from the second point. The estimators of the Sobol' indices compare rows within a block. If
-    one row of a block is not periodic, the row has no lift or power, and the whole block is left out.
+    one parameter is taken from the second point. The formulas for the Sobol' indices compare the rows of a block with
+    each other. If one row of a block is not periodic, the row has no lift or power, and the whole block is left out.
     """
     blocks = periodic.reshape(-1, parameters + 2)
     whole = blocks.all(axis=1)

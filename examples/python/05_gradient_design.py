@@ -1,10 +1,11 @@
-"""The largest lift per watt over eight parameters, under limits: exact derivatives compared with differential
-evolution.
+"""The largest lift per watt over eight parameters, under limits. An optimiser with exact derivatives is compared with
+differential evolution.
 
 The script maximises the lift per watt of the bimorph of Jafferis et al. over parameters of drive, transmission, hinge
 and actuator. The strain of the plates, the stroke and the pitch have limits, and two wings must carry the vehicle.
-SLSQP uses the derivatives of settled rows. Differential evolution (pymoo) uses only the values of the rows. For each
-method, the script counts the designs, the evaluations of the right-hand side, and the seconds.
+SLSQP, an optimiser of SciPy, uses the derivatives of the measures. Differential evolution (pymoo) uses only the values
+of the measures. For each optimiser, the script counts the computed designs, the evaluations of the right-hand side, and
+the seconds.
 
     python 05_gradient_design.py
     python 05_gradient_design.py --starts 8 --generations 120
@@ -55,15 +56,15 @@ LOWEST, HIGHEST = np.array(list(VARIABLES.values())).T
 
 @dataclass
 class Count:
-    """The number of designs and the number of evaluations of the right-hand side in a search."""
+    """The number of computed designs and the number of evaluations of the right-hand side in a search."""
 
     designs: int = 0
     rhs: int = 0
 
 
 def rows(shares: Any, count: Count, gradient: bool) -> Any:
-    """Compute designs and return one row for each design. Each line of `shares` is one design, as multiples of the
-    preset's values."""
+    """Compute designs and return one row for each design. Each line of the array `shares` is one design: each value is
+    a parameter divided by the parameter of the preset."""
     columns = {name: BASE[name] * shares[:, place] for place, name in enumerate(VARIABLES)}
     table = flapwing.evaluate(DESIGN, columns, gradient=list(VARIABLES) if gradient else None)
     count.designs += len(table)
@@ -72,18 +73,18 @@ def rows(shares: Any, count: Count, gradient: bool) -> Any:
 
 
 def excesses(table: Any) -> Any:
-    """Return the excess over each limit, with one column per limit. In an allowed design, no excess is more than
-    zero."""
+    """Return the relative excess of each design over each limit, with one column per limit. An allowed design has no
+    excess above zero."""
     columns = [table[name] / limit - 1 for name, limit in LIMITS.items()]
     return np.column_stack([*columns, 1 - table["vehicle_lift_mgf"] / LIFT_MGF])
 
 
 class NoDerivative(Exception):
-    """The error for a design in a search without a settled motion or without derivatives."""
+    """Exception for a design without a settled motion or without derivatives, which ends a search."""
 
 
 class Search:
-    """The objective, the limits, and the derivatives of objective and limits, computed once per design."""
+    """The functions for SLSQP: the objective, the limits, and their derivatives. Each design is computed only once."""
 
     def __init__(self) -> None:
         self.count = Count()
@@ -91,8 +92,8 @@ class Search:
         self.known: Any = None
 
     def row(self, x: Any) -> Any:
-        """Return the negative lift per watt with the distances to the limits, and the derivatives of all these
-        values."""
+        """Return two arrays for a design: the negative lift per watt and the distances to the limits, and the
+        derivatives of these values."""
         if self.at is None or not np.array_equal(self.at, x):
             table = rows(x[None, :], self.count, gradient=True)
             slopes = table.gradient[0] * np.array([BASE[name] for name in VARIABLES])
@@ -104,8 +105,8 @@ class Search:
         return self.known
 
     def best(self, start: Any) -> Any:
-        """Return the best design that SLSQP finds from a start. Return None if the search reaches a design without
-        derivatives."""
+        """Return the best design that SLSQP finds if the search begins at the design `start`. Return None if the search
+        reaches a design without derivatives."""
         room = {"type": "ineq", "fun": lambda x: self.row(x)[0][1:], "jac": lambda x: self.row(x)[1][1:]}
         try:
             return minimize(
@@ -122,7 +123,7 @@ class Search:
 
 
 class Wing(Problem):  # type: ignore[misc, unused-ignore]
-    """The optimisation problem without derivatives, for one generation of designs at a time."""
+    """The optimisation problem for differential evolution, which computes one generation of designs at a time."""
 
     def __init__(self) -> None:
         super().__init__(n_var=len(VARIABLES), n_obj=1, n_ieq_constr=len(LIMITS) + 1, xl=LOWEST, xu=HIGHEST)
@@ -141,8 +142,8 @@ def keeps_the_limits(end: Any) -> bool:
 
 
 def by_derivatives(starts: int) -> tuple[Any, Count]:
-    """Return the best result of SLSQP from several starts, and the count of the work. The starts are the preset and
-    random designs."""
+    """Return the best result of several SLSQP searches, and the count of designs and evaluations. The searches begin at
+    the preset and at random designs."""
     search = Search()
     spread = np.random.default_rng(1).uniform(0.25, 0.75, (starts - 1, len(VARIABLES)))
     begins = [np.ones(len(VARIABLES)), *(LOWEST + (HIGHEST - LOWEST) * spread)]
@@ -153,7 +154,7 @@ def by_derivatives(starts: int) -> tuple[Any, Count]:
 
 
 def by_evolution(generations: int) -> tuple[Any, Count]:
-    """Return the best design that differential evolution finds, and the count of the work."""
+    """Return the best design that differential evolution finds, and the count of designs and evaluations."""
     wing = Wing()
     found = evolve(wing, DE(pop_size=64), ("n_gen", generations), seed=1)
     if found.X is None:

@@ -1,9 +1,9 @@
 """The trade-off of lift and power, with a limit on the strain of the actuator.
 
-NSGA-II searches the Pareto front of lift and power for the bimorph of Jafferis et al. No design has both more lift and
-less power than a design of the front. Voltage and frequency of the drive, the transmission and the hinge vary. The
-strain of the piezoelectric plates, the stroke and the pitch have limits, and two wings must carry the vehicle. One call
-of `flapwing.evaluate` runs all designs of a generation.
+The algorithm NSGA-II computes the Pareto front of lift and power for the bimorph of Jafferis et al. No computed design
+has more lift and less power than a design of the front. Voltage and frequency of the drive, the transmission and the
+hinge vary. The strain of the piezoelectric plates, the stroke and the pitch have limits, and two wings must carry the
+vehicle. One call of `flapwing.evaluate` runs all designs of a generation.
 
     python 06_pareto_pymoo.py
     python 06_pareto_pymoo.py --size full --strain 0.0006 --out front.csv --picture front.png
@@ -51,8 +51,8 @@ SIZES = {"small": (100, 30), "full": (200, 200)}
 
 
 class Wing(Problem):  # type: ignore[misc, unused-ignore]
-    """An optimisation problem with two objectives: minimise the negative lift and the power. The constraints must not
-    be above 0."""
+    """An optimisation problem with two objectives: minimise the negative lift and the power. A design is allowed if no
+    constraint is above 0."""
 
     def __init__(self, strain: float) -> None:
         lowest, highest = np.array(list(VARIABLES.values())).T

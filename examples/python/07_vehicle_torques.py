@@ -1,4 +1,4 @@
-"""Roll, pitch and yaw torques of a vehicle with two bimorph wings, for the drive that produces each torque:
+"""Roll, pitch and yaw torques of a vehicle with two bimorph wings, for drives that produce one of these torques:
 
     pip install ./crates/flap-py
     python examples/python/07_vehicle_torques.py
@@ -43,7 +43,7 @@ def best_phase(robot: flapwing.Vehicle) -> float:
 
 
 def drives(preset: str, phase: float) -> dict[str, dict[str, Any]]:
-    """Return the parameters of each drive, by the name of the drive."""
+    """Return a dictionary of drives: the name of a drive, and the drive parameters."""
     volts = flapwing.params(preset)["drive_voltage_pp"].value
     assert isinstance(volts, float)
     split = {"drive_second_phase": float(np.radians(phase))}
@@ -59,7 +59,7 @@ def drives(preset: str, phase: float) -> dict[str, dict[str, Any]]:
 
 
 def main() -> None:
-    """Print a table of torques."""
+    """Print a table with the torques of each drive."""
     parser = argparse.ArgumentParser(description="Prints the torques of a vehicle of two wings for several drives.")
     parser.add_argument("--preset", default="jafferis2016", help="design of the wings (default: %(default)s)")
     preset = parser.parse_args().preset

@@ -31,8 +31,8 @@ LEVELS = {"small": 4, "full": 8}
 
 
 def vehicle() -> flapwing.Vehicle:
-    """Return a vehicle with two wings of `jafferis2016`, with a second harmonic at the phase of the largest yaw
-    torque."""
+    """Return a vehicle with two wings of `jafferis2016`. The phase of the second harmonic is the phase with the largest
+    yaw torque."""
     place = ["0 mm", "1.5 mm", "0 mm"]
     wings = [flapwing.Wing("left", position=place), flapwing.Wing("right", position=place, mirrored=True)]
     drive = {"drive_shape": "harmonics", "drive_second_phase": "315 deg"}

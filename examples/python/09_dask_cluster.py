@@ -20,7 +20,7 @@ For Kubernetes (pip install dask-kubernetes), use an image that contains flapwin
     cluster.scale(64)
 
 All workers must have the same build of flapwing, and processors with the same rounding. If a worker differs, the sweep
-ends with an error. The process of the script writes the file.
+ends with an error. The workers do not write the result file, because the process of the script writes the file.
 
 The script requires Dask: pip install distributed
 

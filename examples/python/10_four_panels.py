@@ -1,11 +1,11 @@
-"""Four pictures in one figure for a paper, 7 inches wide with letters of 7 points:
+"""Four pictures in one figure for a paper. The figure is 7 inches wide, and its text has a size of 7 points:
 
     pip install "./crates/flap-py[plot]"
     python examples/python/10_four_panels.py              # writes docs/pictures/py-four-panels.png
     python examples/python/10_four_panels.py figure.pdf   # any format of matplotlib
 
-Each function of `flapwing.plot` draws in axes that the script gives. The settings of the script determine the sizes of
-letters and lines.
+The script creates the axes, and the functions of `flapwing.plot` draw in these axes. The settings of the script
+determine the sizes of letters and lines.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-//! Arabagi, Hines and Sitti (2013).
+//! Claims of the paper of Arabagi, Hines and Sitti (2013).
 
 mod control;
 mod lift;
@@ -57,7 +57,7 @@ pub(crate) const PAPER: Paper = Paper {
     ],
 };
 
-/// One of the two systems, with the range of frequencies of its responses.
+/// One of the two robots of the paper, with the range of drive frequencies of its responses.
 struct System {
     name: &'static str,
     params: Params,
@@ -78,7 +78,7 @@ fn bench() -> Bench {
 }
 
 impl System {
-    /// The response to frequencies.
+    /// Returns the settled motions at the drive frequencies of the range.
     fn response(&self) -> Response {
         let [from, to, step] = self.range;
         bench().response(&steps(from, to, step), |drive_frequency| {
@@ -86,13 +86,13 @@ impl System {
         })
     }
 
-    /// The same system with another drive voltage.
+    /// Returns the same robot with a different drive voltage.
     fn at(self, drive_voltage_pp: f64) -> System {
         System { params: Params { drive_voltage_pp, ..self.params }, ..self }
     }
 }
 
-/// Coefficient of determination of a straight line fitted to points.
+/// Returns the coefficient of determination (R²) of a straight line that is fitted to points.
 fn straightness(points: &[(f64, f64)]) -> f64 {
     let n = points.len() as f64;
     let mean = |of: fn(&(f64, f64)) -> f64| points.iter().map(of).sum::<f64>() / n;

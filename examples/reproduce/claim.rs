@@ -1,72 +1,79 @@
-//! Claims: the statement of a paper, the number that flap computes, and the verdict that follows from both.
+//! A claim consists of the statement of a paper, the number that flap computes, and a verdict about the
+//! statement.
 //!
-//! Rules compute each verdict from the numbers.
+//! Fixed rules determine each verdict from the published number and the computed number.
 
 /// A statement of a paper, and the number that flap computes.
 pub(crate) struct Claim {
-    /// Section, figure or table of the paper.
+    /// Section, figure or table of the paper that contains the statement.
     pub(crate) place: &'static str,
-    /// The statement of the paper.
+    /// The statement of the paper as text.
     pub(crate) statement: String,
-    /// The paper's number or words.
+    /// The number or the words that the paper gives.
     pub(crate) published: String,
-    /// The number that flap computes.
+    /// The number that flap computes, as text.
     pub(crate) computed: String,
     pub(crate) verdict: Verdict,
 }
 
-/// The outcome of a claim.
+/// The verdict about a claim.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Verdict {
-    /// The computed number equals the published number to its rounding, or the statement holds.
+    /// The computed number equals the rounded published number, or the computed motions fulfil the statement.
     Met,
-    /// The relative error of the computed number, within the limit of the claim.
+    /// The difference between the computed and the published number is within the limit of the claim. The
+    /// value is the relative difference.
     MetWithin(f64),
-    /// The relative error exceeds the limit of the claim, or the statement does not hold.
+    /// The difference between the two numbers exceeds the limit of the claim, or the computed motions do not
+    /// fulfil the statement.
     NotReproduced,
-    /// The reason why the claim cannot be compared.
+    /// The paper lacks the numbers for a comparison. The value is the reason.
     CannotBeChecked(&'static str),
 }
 
-/// Largest relative error of a resonance, or of a number that the paper computed from the same parameters.
+/// Largest allowed relative difference for a resonance, or for a number that the paper computed from the same
+/// parameters.
 const CLOSELY: f64 = 0.03;
-/// Largest relative error of a number that the paper calls approximate.
+/// Largest allowed relative difference for a number that the paper calls approximate.
 const ABOUT: f64 = 0.10;
-/// Largest relative error of a number that the paper measured.
+/// Largest allowed relative difference for a number that the paper measured.
 const MEASURED: f64 = 0.20;
-/// Largest relative error of a number, if wing and actuator are assumed.
+/// Largest allowed relative difference for a robot whose wing and actuator are assumed.
 const ASSUMED: f64 = 0.25;
 
-/// A published number, and the largest relative error of the computed number.
+/// A published number, and the limit for the difference between the computed and the published number.
 pub(crate) struct Expected {
     value: f64,
-    /// Half a unit of the published number's last digit, or half the width of a range.
+    /// Half of the unit of the published number's last digit, or half of the width of a published range.
     rounding: f64,
-    /// Largest relative error at which the computed number reproduces the published number.
+    /// Largest relative difference at which the computed number still counts as equal to the published
+    /// number.
     limit: f64,
 }
 
-/// A resonance, or a number that the paper computed from the same parameters.
+/// Returns the expected value of a resonance, or of a number that the paper computed from the same
+/// parameters.
 pub(crate) fn closely(value: f64, rounding: f64) -> Expected {
     Expected { value, rounding, limit: CLOSELY }
 }
 
-/// A number that the paper calls approximate.
+/// Returns the expected value of a number that the paper calls approximate.
 pub(crate) fn about(value: f64, rounding: f64) -> Expected {
     Expected { value, rounding, limit: ABOUT }
 }
 
-/// A number that the paper measured.
+/// Returns the expected value of a number that the paper measured.
 pub(crate) fn measured(value: f64, rounding: f64) -> Expected {
     Expected { value, rounding, limit: MEASURED }
 }
 
-/// A number of a system whose wing and actuator are assumed, because the paper does not give them.
+/// Returns the expected value of a number of a robot whose wing and actuator are assumed, because the paper
+/// does not describe the wing and the actuator.
 pub(crate) fn assumed(value: f64, rounding: f64) -> Expected {
     Expected { value, rounding, limit: ASSUMED }
 }
 
-/// A published range, in which the computed number must be.
+/// Returns the expected value for a published range. The computed number must be in the range.
 pub(crate) fn between(low: f64, high: f64) -> Expected {
     Expected { value: 0.5 * (low + high), rounding: 0.5 * (high - low), limit: 0.0 }
 }
@@ -84,30 +91,32 @@ impl Expected {
     }
 }
 
-/// A statement of a paper, before flap computes a number.
+/// A statement of a paper, without the number that flap computes.
 pub(crate) struct Said {
     place: &'static str,
     statement: String,
     published: String,
 }
 
-/// The statement `statement` at `place` of a paper, with the published number `published`.
+/// Returns the statement `statement` from the section, figure or table `place` of a paper, with the published
+/// number `published`.
 pub(crate) fn said(place: &'static str, statement: impl Into<String>, published: impl Into<String>) -> Said {
     Said { place, statement: statement.into(), published: published.into() }
 }
 
 impl Said {
-    /// The claim, with a comparison of the computed and the published number.
+    /// Returns a claim whose verdict compares the computed number with the published number.
     pub(crate) fn is(self, expected: &Expected, computed: f64, shown: impl Into<String>) -> Claim {
         self.claim(shown.into(), expected.verdict(computed))
     }
 
-    /// The claim, with the result whether the computed numbers fulfil the statement.
+    /// Returns a claim whose verdict is met if `holds` is true, because the computed motions fulfil the
+    /// statement.
     pub(crate) fn holds(self, holds: bool, shown: impl Into<String>) -> Claim {
         self.claim(shown.into(), if holds { Verdict::Met } else { Verdict::NotReproduced })
     }
 
-    /// The claim, if no number can be compared.
+    /// Returns a claim that cannot be checked for the reason `why`.
     pub(crate) fn cannot_be_checked(self, why: &'static str, shown: impl Into<String>) -> Claim {
         self.claim(shown.into(), Verdict::CannotBeChecked(why))
     }

@@ -1,4 +1,4 @@
-//! Free motions after an impulse on the resting stroke.
+//! Free motions after an impulse that sets the stroke of the resting wing in motion.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{ImpulseRequest, PointRun};
@@ -7,10 +7,10 @@ use flap_experiments::free::{FreeMotion, FreeRequest, examine, intervals, stroke
 
 use crate::points::Bench;
 
-/// Samples per period of the first mode.
+/// Number of samples per period of the first mode.
 const SAMPLES: u32 = 200;
 
-/// The first periods of a free motion.
+/// Results of the first periods of a free motion.
 pub(crate) struct Swing {
     pub(crate) fit: DampedSine,
     /// The stroke at the first reversal (deg).
@@ -18,8 +18,8 @@ pub(crate) struct Swing {
 }
 
 impl Bench {
-    /// The damped sine that fits the first `cycles` periods after an impulse. Without damping, the impulse would move
-    /// the first mode alone to `amplitude` (rad).
+    /// Fits a damped sine to the first `cycles` periods after an impulse. The size of the impulse is the
+    /// stroke `amplitude` (rad) that the impulse causes in the first mode alone, without damping.
     pub(crate) fn swing(&self, values: &[f64], amplitude: f64, cycles: u32) -> Swing {
         let modes = self.experiments().modes(values).expect("published parameters are possible");
         let request = ImpulseRequest {
@@ -37,7 +37,8 @@ impl Bench {
         Swing { fit: fit.expect("the stroke swings"), first_peak }
     }
 
-    /// The spectra of the first second after an impulse with this amplitude, see [`swing`](Self::swing).
+    /// Returns the spectra of stroke and pitch in the first second after an impulse of the size `amplitude`
+    /// (see [`swing`](Self::swing)).
     pub(crate) fn spectra(&self, values: &[f64], amplitude: f64) -> FreeMotion {
         let request =
             FreeRequest { amplitude, fit_cycles: 4, spectrum_window: 1.0, samples_per_cycle: SAMPLES };

@@ -1,4 +1,4 @@
-//! Jafferis, Graule and Wood (2016).
+//! Claims of the paper of Jafferis, Graule and Wood (2016).
 
 mod design;
 mod redesign;
@@ -47,7 +47,8 @@ fn bench() -> Bench {
     Bench::new("bimorph", 1e-4)
 }
 
-/// The design with a scaled transmission of Table I: ratio 1 for T₁, 0.8 for T₂, 0.6 for T₃.
+/// Returns the design of Table I with a scaled transmission: the ratio is 1 for T₁, 0.8 for T₂ and 0.6 for
+/// T₃.
 fn transmission(ratio: f64) -> Params {
     Params::jafferis2016().with_transmission_scaled(ratio)
 }
@@ -56,7 +57,7 @@ fn constants(p: &Params) -> Constants<f64> {
     Constants::derive(p).expect("published parameters are possible")
 }
 
-/// The response of a design to frequencies, in steps of 1 Hz.
+/// Returns the settled motions of a design at drive frequencies in steps of 1 Hz.
 fn response(p: &Params, drive_voltage_pp: f64, [from, to]: [f64; 2]) -> Response {
     bench().response(&steps(from, to, 1.0), |drive_frequency| {
         Params { drive_voltage_pp, drive_frequency, ..p.clone() }.to_values()

@@ -1,6 +1,7 @@
-//! Computes the cases of the papers and prints `docs/evidence/reproduction.md`.
+//! Computes the claims of the papers and prints the page `docs/evidence/reproduction.md`.
 //!
-//! `just reproduce` writes the page; with `--short` the program prints only the parts that are quick to compute.
+//! The command `just reproduce` writes the page. With the option `--short`, the program prints only the parts
+//! of the page that are quick to compute.
 
 mod arabagi;
 mod claim;
@@ -64,7 +65,8 @@ fn main() -> io::Result<()> {
     io::stdout().lock().write_all(page(short).as_bytes())
 }
 
-/// Returns the page. If `short`, the page has no counts and only the groups that are quick to compute.
+/// Returns the text of the page. If `short` is true, the page contains only the groups of claims that are
+/// quick to compute, and no counts of verdicts.
 fn page(short: bool) -> String {
     let mut sections = Vec::new();
     let mut verdicts: Vec<(&Paper, Vec<Verdict>)> = Vec::new();
@@ -84,7 +86,7 @@ fn page(short: bool) -> String {
 
 #[cfg(test)]
 mod tests {
-    /// The committed page contains every line of the groups that are quick to compute.
+    /// The page in the repository must contain every line of the short page.
     #[test]
     fn the_page_is_up_to_date() {
         let written = include_str!("../../docs/evidence/reproduction.md");

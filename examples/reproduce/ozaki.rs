@@ -1,4 +1,4 @@
-//! Ozaki and Hamaguchi (2018).
+//! Claims of the paper of Ozaki and Hamaguchi (2018).
 
 mod hypothesis;
 mod performance;
@@ -67,7 +67,8 @@ pub(crate) const PAPER: Paper = Paper {
     ],
 };
 
-/// A type of actuator, with the drive voltages V₀ and the drive frequency in the calculations of Figs. 13 to 16.
+/// One of the two actuators of the paper (small and large type), with the drive voltages V₀ and the drive
+/// frequency of Figs. 13 to 16.
 struct Type {
     name: &'static str,
     params: Params,
@@ -83,7 +84,7 @@ fn large() -> Type {
     Type { name: "large", params: Params::ozaki2018_large(), voltages: [20.0, 50.0], frequency: 109.0 }
 }
 
-/// `p` driven with V₀ sin ωt + V₀.
+/// Returns the values of the parameters `p` with the drive voltage V₀ sin ωt + V₀.
 fn driven(p: &Params, v_0: f64, drive_frequency: f64) -> Vec<f64> {
     Params { drive_voltage_pp: 2.0 * v_0, drive_frequency, ..p.clone() }.to_values()
 }
@@ -93,12 +94,12 @@ fn bench() -> Bench {
 }
 
 impl Type {
-    /// The settled motions at the lower and at the higher voltage.
+    /// Returns two settled motions of the actuator: at the lower and at the higher drive voltage.
     fn performance(&self) -> [Settled; 2] {
         self.voltages.map(|v_0| bench().point(driven(&self.params, v_0, self.frequency)))
     }
 
-    /// The response to frequencies, in steps of 0.1 Hz.
+    /// Returns the settled motions at drive frequencies in steps of 0.1 Hz.
     fn response(&self, v_0: f64, [from, to]: [f64; 2]) -> Response {
         bench().response(&steps(from, to, 0.1), |frequency| driven(&self.params, v_0, frequency))
     }

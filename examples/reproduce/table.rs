@@ -2,25 +2,25 @@
 
 use crate::claim::{Claim, Verdict};
 
-/// A paper, and the groups of its claims.
+/// A paper, and the groups of claims about this paper.
 pub(crate) struct Paper {
     pub(crate) title: &'static str,
-    /// Introduction to all groups: one sentence per line.
+    /// Introduction to the section of the paper, with one sentence per line.
     pub(crate) preface: &'static str,
     pub(crate) groups: &'static [Group],
 }
 
-/// Claims that are computed together.
+/// A group of claims, which the page shows in one table.
 pub(crate) struct Group {
     pub(crate) title: &'static str,
-    /// Introduction to the table: one sentence per line, or empty.
+    /// Introduction to the table of a group, with one sentence per line, or an empty text.
     pub(crate) preface: &'static str,
     /// True if the group is quick to compute.
     pub(crate) quick: bool,
     pub(crate) claims: fn() -> Vec<Claim>,
 }
 
-/// Returns a group as a section of the page.
+/// Returns the text of the page's section for a group of claims.
 pub(crate) fn section(group: &Group, claims: &[Claim]) -> String {
     let mut lines = vec![
         "| place | statement of the paper | published | computed | verdict |".to_owned(),
@@ -32,12 +32,12 @@ pub(crate) fn section(group: &Group, claims: &[Claim]) -> String {
     format!("### {}\n\n{}{}\n\n", group.title, paragraph(group.preface), lines.join("\n"))
 }
 
-/// Returns a text and an empty line; an empty string if the text is empty.
+/// Returns the text followed by an empty line. If the text is empty, returns an empty string.
 pub(crate) fn paragraph(text: &str) -> String {
     if text.is_empty() { String::new() } else { format!("{text}\n\n") }
 }
 
-/// The number of claims of each paper by verdict.
+/// Returns a table with the number of claims for each paper and each verdict.
 pub(crate) fn summary(papers: &[(&Paper, Vec<Verdict>)]) -> String {
     let mut lines = vec![
         "| paper | rows | met | met within X % | not reproduced | cannot be checked |".to_owned(),

@@ -1,4 +1,4 @@
-//! Claims of several papers about torques of vehicles.
+//! Claims of several papers about the torques of vehicles.
 
 mod coupling;
 mod damping;

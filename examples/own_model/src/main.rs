@@ -1,4 +1,4 @@
-//! The `flap` command with one more model: the motor-driven wing of `motor_wing`.
+//! The `flap` command with one additional model: the motor-driven wing in the module `motor_wing`.
 //!
 //! ```sh
 //! cargo run --release -p own-model -- sweep examples/own_model/grid.toml --out own.csv
@@ -10,7 +10,7 @@ use std::process::ExitCode;
 
 use flap_core::simulate::{self, Runner, Simulator};
 
-/// The model of the wing: three states, and their 3 + 9 derivatives with respect to the initial state.
+/// The model of the motor-driven wing, whose motion has three states.
 static MOTOR_WING: Runner<motor_wing::MotorWing, 3> = Runner::new(motor_wing::MotorWing);
 
 fn main() -> ExitCode {

@@ -1,8 +1,9 @@
-//! A wing on the shaft of a motor, with a spring. The states are the flap angle, its rate, and the current of the
-//! motor. The pitch follows the flap rate.
+//! A wing on the shaft of a motor, with a spring. The states are the flap angle, the flap rate, and the
+//! current of the motor. The pitch is not a state, because the flap rate determines the pitch.
 //!
 //! Park and Abolfathi, "Direct Drive Design and Operational Performance Analysis of an Insect-Sized Flapping-Wing Micro
-//! Air Vehicle" (2024). The facts are from the public repository of the paper, saatvikbasil/UCL-MicroFlapping.
+//! Air Vehicle" (2024). The equations and numbers are from the public repository of the paper,
+//! saatvikbasil/UCL-MicroFlapping.
 //!
 //! ```text
 //! L_a di/dt = V sin ωt − R_a i − K_b β̇
@@ -24,12 +25,13 @@ use flap_core::quadrature::gauss_legendre;
 use columns::Signals;
 pub(crate) use params::Params;
 
-/// The model. All points share one equation, so the model has no choices.
+/// The model of a motor-driven wing. All points use the same form of the equations, so the model has no
+/// choices.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct MotorWing;
 
 flap_core::per_lane! {
-    /// Constants of a point; each lane has its own constants.
+    /// Constants of a point. Each SIMD lane computes one point with its own constants.
     pub struct Constants<R> {
         /// Drive voltage.
         pub drive: DriveConstants<R>,
@@ -47,20 +49,22 @@ flap_core::per_lane! {
         pub stiffness: R,
         /// J (kg·m²).
         pub inertia: R,
-        /// I₂ (kg·m): lift per lift coefficient and squared rate.
+        /// I₂ (kg·m): lift divided by the lift coefficient and the squared flap rate.
         pub lift_moment: R,
-        /// I₃ (kg·m²): drag torque per drag coefficient and squared rate.
+        /// I₃ (kg·m²): drag torque divided by the drag coefficient and the squared flap rate.
         pub drag_moment: R,
-        /// I₄ (kg·m²): torque on the rotating chord per squared rate.
+        /// I₄ (kg·m²): torque on the rotating chord divided by the squared flap rate.
         pub rotation_moment: R,
-        /// C_α (s): decrease of the attack angle per flap rate.
+        /// C_α (s): decrease of the attack angle divided by the magnitude of the flap rate.
         pub attack_slope: R,
     }
 }
 
-/// ∫ f(r, c) dr over a wing that begins at the radius `root` (m).
+/// Returns ∫ f(r, c) dr over the span of a wing, where r is the radius and c is the chord. The wing begins at
+/// the radius `root` (m).
 ///
-/// The chord (m) is a quarter of an ellipse: c = `chord` √(1 − x²) at r = root + x · length, with x = sin θ.
+/// The outline of the wing is a quarter of an ellipse: c = `chord` √(1 − x²) (m) at r = root + x · length,
+/// with x = sin θ.
 fn over_wing(root: f64, length: f64, chord: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
     let value = |theta: f64| {
         let (sin, cos) = theta.sin_cos();
@@ -107,14 +111,15 @@ impl Constants<f64> {
 }
 
 impl<R: Real> Constants<R> {
-    /// The attack angle (rad) at a flap rate: 90° at rest, and at least 45°.
+    /// Returns the attack angle (rad) at a flap rate. The attack angle is 90° at rest, decreases with the
+    /// flap rate, and is never below 45°.
     #[inline(always)]
     fn attack(&self, rate: R) -> R {
         let falling = self.attack_slope.mul_add(-rate.abs(), rate.lit(FRAC_PI_2));
         falling.max(rate.lit(FRAC_PI_4))
     }
 
-    /// The lift (N) at a flap rate.
+    /// Returns the lift (N) at a flap rate.
     #[inline(always)]
     fn lift(&self, rate: R) -> R {
         let angle = self.attack(rate) * 2.13 + (-0.1257);
@@ -122,7 +127,7 @@ impl<R: Real> Constants<R> {
         self.lift_moment * coefficient * rate * rate
     }
 
-    /// The torque of the air (N·m), which opposes the motion.
+    /// Returns the aerodynamic torque (N·m) at a flap rate. This torque opposes the motion.
     #[inline(always)]
     fn air_torque(&self, rate: R) -> R {
         let angle = self.attack(rate) * 2.04 + (-0.1714);
@@ -194,7 +199,8 @@ impl Model<3> for MotorWing {
         }
     }
 
-    /// Spring, inertia and inductance return all energy that they store.
+    /// The spring, the inertia and the inductance return all stored energy within a period, so the balance
+    /// leaves out their powers.
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         let &mut Signals { power_air, power_resistive, power_bearing, power_magnetic, .. } = cycle;
         cycle.power.balance(&[power_air, power_resistive, power_bearing, power_magnetic]);

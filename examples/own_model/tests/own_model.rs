@@ -1,4 +1,4 @@
-//! The new model, through every command that supports it.
+//! Tests of the motor-driven wing with every command of flap that supports this model.
 
 use std::fs;
 use std::path::Path;
@@ -6,7 +6,7 @@ use std::process::{Command, Output};
 
 use temp_dir::TempDir;
 
-/// Numbers of a separate solver and transcription: `examples/own_model/reference.py`.
+/// Reference numbers of a separate program with the same equations, `examples/own_model/reference.py`.
 const REFERENCE: &str = include_str!("../../../tests/data/motor_wing.csv");
 
 fn flap(folder: &Path, args: &[&str]) -> Output {
@@ -23,7 +23,7 @@ fn text(output: &Output) -> String {
     String::from_utf8(output.stdout.clone()).expect("text")
 }
 
-/// The rows of a table, each with the cells of these columns.
+/// Returns the cells of the columns `columns` in every row of a CSV table.
 fn rows(text: &str, columns: &[&str]) -> Vec<Vec<String>> {
     let mut reader = csv::Reader::from_reader(text.as_bytes());
     let headers = reader.headers().expect("headers").clone();
@@ -35,7 +35,7 @@ fn rows(text: &str, columns: &[&str]) -> Vec<Vec<String>> {
     reader.records().map(|row| cells(row.expect("a row"))).collect()
 }
 
-/// Runs a sweep of the grid and gives its file.
+/// Runs a sweep of the grid and returns the text of the results file.
 fn sweep(grid: &str) -> String {
     let folder = TempDir::new().expect("a folder");
     fs::write(folder.path().join("grid.toml"), grid).expect("a file");

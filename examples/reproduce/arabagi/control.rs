@@ -1,4 +1,5 @@
-//! Lift against voltage, stiffness of the hinge and of the slider-crank: section VI and Figs. 9, 11, 13 to 15.
+//! Claims about the lift as a function of the voltage, the hinge stiffness and the stiffness of the
+//! slider-crank (section VI, Figs. 9, 11, 13 to 15).
 
 use flap_core::model::four_bar::Params;
 
@@ -17,7 +18,7 @@ pub(super) fn claims() -> Vec<Claim> {
     claims
 }
 
-/// The prototype of Figs. 13 to 15.
+/// Returns the parameters of the prototype in Figs. 13 to 15.
 fn at_70_hz() -> Params {
     Params { drive_frequency: 70.0, ..Params::arabagi2013_75hz() }
 }
@@ -103,8 +104,8 @@ fn surface() -> Claim {
     )
 }
 
-/// Coefficient of determination of a plane fitted to values on a rectangular grid; the two directions are fitted
-/// separately.
+/// Returns the coefficient of determination (R²) of a plane that is fitted to values on a rectangular grid.
+/// The result is the sum of R² of two straight lines, one line for each direction of the grid.
 fn planeness(points: &[[f64; 2]], values: &[f64]) -> f64 {
     let along = |axis: usize| {
         straightness(
@@ -114,7 +115,7 @@ fn planeness(points: &[[f64; 2]], values: &[f64]) -> f64 {
     along(0) + along(1)
 }
 
-/// The claim about critical values of the series stiffness.
+/// Returns the claim about critical values of the series stiffness.
 fn series(system: fn() -> System) -> Claim {
     let [soft, base, stiff] = [300.0, 1400.0, 1650.0].map(|series_stiffness| {
         let system = system();
@@ -143,8 +144,8 @@ fn series(system: fn() -> System) -> Claim {
 }
 
 impl System {
-    /// The response from half of the lowest frequency to 0.75 of the highest frequency; the range contains the largest
-    /// lift.
+    /// Returns the response from half of the lowest frequency to 0.75 of the highest frequency. The largest
+    /// lift is in this range.
     fn response_from_low(self) -> Response {
         let [from, to, step] = self.range;
         System { range: [0.5 * from, 0.75 * to, step], ..self }.response()

@@ -1,4 +1,4 @@
-//! Lift against frequency, and the parts of the lift.
+//! Claims about the lift as a function of the drive frequency, and about the parts of the lift.
 
 use super::{System, straightness, system_30, system_75};
 use crate::claim::{Claim, about, between, said};
@@ -91,7 +91,7 @@ fn collapse(system: &System, response: &Response, frequencies: [f64; 4]) -> Clai
     )
 }
 
-/// The parts of the lift at the systems' own frequencies.
+/// Returns claims about the parts of the lift, each robot at the drive frequency of its preset.
 pub(super) fn parts() -> Vec<Claim> {
     let [split_75, split_30] = [system_75(), system_30()].map(|system| {
         let point = super::bench().point(system.params.to_values());

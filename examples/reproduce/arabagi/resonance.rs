@@ -1,4 +1,4 @@
-//! Peaks of the stroke against frequency.
+//! Claims about the frequencies at which the stroke has a peak.
 
 use flap_experiments::free::FreeMotion;
 
@@ -72,7 +72,7 @@ pub(super) fn claims() -> Vec<Claim> {
     claims
 }
 
-/// The 75 Hz system after an impulse.
+/// Returns claims about the free motion of the 75 Hz system after an impulse.
 pub(super) fn small_motions() -> Vec<Claim> {
     let values = system_75().params.to_values();
     let modes = bench().experiments().modes(&values).expect("the preset is possible");
@@ -102,7 +102,7 @@ pub(super) fn small_motions() -> Vec<Claim> {
     ]
 }
 
-/// The frequency of the peak `index`, or NaN if the response has fewer peaks.
+/// Returns the frequency of peak number `index`, or NaN if the response has fewer peaks.
 fn peak(humps: &[f64], index: usize) -> f64 {
     humps.get(index).copied().unwrap_or(f64::NAN)
 }
@@ -120,8 +120,8 @@ fn frequency(
     )
 }
 
-/// The frequencies around the largest stroke between which the stroke is at least 1/√2 of the largest stroke,
-/// interpolated.
+/// Returns the lowest and the highest frequency of the band around the largest stroke in which the stroke is
+/// at least 1/√2 of the largest stroke. The frequencies are interpolated.
 fn half_power_band(response: &Response) -> [f64; 2] {
     let strokes = response.column(STROKE);
     let (peak, point) = response.peak(STROKE);

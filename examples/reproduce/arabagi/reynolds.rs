@@ -1,4 +1,4 @@
-//! The Reynolds number, section II-C.
+//! Claims about the Reynolds number (section II-C).
 
 use flap_core::model::four_bar::Params;
 use flap_core::num::Backend;
@@ -29,14 +29,15 @@ pub(super) fn claims() -> Vec<Claim> {
         .into()
 }
 
-/// Mean of r c / ν along the span (s).
+/// Returns the mean of r c / ν along the span (s), with the radius r, the chord c and the kinematic viscosity
+/// ν.
 fn strip_average(p: &Params) -> f64 {
     let n = 1000;
     let strips = (0..n).map(|i| (f64::from(i) + 0.5) / f64::from(n));
     strips.map(|x| (p.wing_offset + x * p.wing_length) * p.chord(x)).sum::<f64>() / f64::from(n) / VISCOSITY
 }
 
-/// Largest stroke rate (rad/s).
+/// Returns the largest stroke rate of the settled motion (rad/s).
 fn largest_rate(p: &Params) -> f64 {
     let bench = bench();
     let request = TrajectoryRequest { cycles: 1, samples_per_cycle: 400, settled: true };

@@ -1,4 +1,4 @@
-//! Rotation alone: with a prescribed stroke, Figs. 8 and 10.
+//! Claims about the rotation of the wing with a prescribed stroke (Figs. 8 and 10).
 
 use flap_core::drive::StrokeParameters;
 use flap_core::model::four_bar::{Arms, Params};
@@ -15,7 +15,7 @@ pub(super) fn claims() -> Vec<Claim> {
     claims
 }
 
-/// The settled motion with a prescribed sinusoidal stroke of `amplitude` (deg).
+/// Returns the settled motion with a prescribed sinusoidal stroke of `amplitude` (deg).
 fn alone(system: &System, drive_frequency: f64, amplitude: f64, arms: Arms) -> Settled {
     let params = Params {
         stroke: StrokeParameters::prescribed(amplitude.to_radians()),
@@ -26,12 +26,12 @@ fn alone(system: &System, drive_frequency: f64, amplitude: f64, arms: Arms) -> S
     bench().point(params.to_values())
 }
 
-/// Mean lift from translation, and mean lift from added mass (mN).
+/// Returns the mean lift of translation and the mean lift of added mass (mN).
 fn split(point: &Settled) -> [f64; 2] {
     ["lift_translational_mean_mn", "lift_added_mass_mean_mn"].map(|part| point.get(part))
 }
 
-/// The phase lag of the pitch behind the stroke at 95 Hz.
+/// Returns claims about the phase lag of the pitch behind the stroke at 95 Hz.
 fn lags() -> Vec<Claim> {
     let lag = |amplitude: f64, arms: Arms| alone(&system_75(), 95.0, amplitude, arms).get("pitch_lag_deg");
     let [small, large] = [7.5, 12.5].map(|amplitude| lag(amplitude, Arms::Printed));
@@ -59,7 +59,7 @@ fn lags() -> Vec<Claim> {
     ]
 }
 
-/// The parts of the lift of the 75 Hz system.
+/// Returns claims about the parts of the lift of the 75 Hz system.
 fn parts() -> Vec<Claim> {
     const PLACE: &str = "V-B, Fig. 10b";
     let strokes = [(75.0, [7.5, 10.0, 12.5].as_slice()), (95.0, [7.5, 12.5].as_slice())];
@@ -105,7 +105,8 @@ fn parts() -> Vec<Claim> {
     largest
 }
 
-/// Translational lift in the full simulation divided by translational lift with a prescribed stroke.
+/// Returns a claim about a ratio: the translational lift in the full simulation divided by the translational
+/// lift with a prescribed stroke.
 fn growth() -> Claim {
     let system = system_75();
     let full = bench().point(system.params.to_values());

@@ -1,4 +1,4 @@
-//! Claims that follow from Table I without integrating a motion.
+//! Claims that are computed from Table I without a simulation.
 
 use flap_core::model::ExperimentModel;
 use flap_core::model::bimorph::{Bimorph, Constants, Params, secant_stiffness};
@@ -123,13 +123,14 @@ fn lift_and_drag() -> Vec<Claim> {
     ]
 }
 
-/// Lift-to-drag ratio at a pitch in degrees.
+/// Returns the lift-to-drag ratio at the pitch `degrees`.
 fn lift_to_drag(c: &Constants<f64>, degrees: f64) -> f64 {
     let (sin, cos) = (2.0 * degrees).to_radians().sin_cos();
     c.b_l * sin / (c.b_1 + c.b_2 * cos)
 }
 
-/// Mean lift of a sinusoidal stroke, ∝ ⟨cos²θ sin(2ψ_m cos θ)⟩, for a peak pitch ψ_m in degrees.
+/// Returns a number proportional to the mean lift of a sinusoidal stroke, ⟨cos²θ sin(2ψ_m cos θ)⟩, with the
+/// peak pitch ψ_m in degrees.
 fn mean_lift(degrees: f64) -> f64 {
     let n = 400;
     (0..n)
@@ -138,7 +139,7 @@ fn mean_lift(degrees: f64) -> f64 {
         .sum()
 }
 
-/// The angle in degrees, in steps of 0.01, at which `f` is largest.
+/// Returns the angle (degrees, in steps of 0.01) at which the function `f` is largest.
 fn angle_of_largest(f: impl Fn(f64) -> f64) -> f64 {
     let angles = (0..9000).map(|i| 0.01 * f64::from(i));
     angles.max_by(|a, b| f(*a).total_cmp(&f(*b))).expect("there are angles")
@@ -190,7 +191,7 @@ fn strains() -> Vec<Claim> {
     ]
 }
 
-/// Strain of the plates' outer faces per degree of stroke, both peak to peak.
+/// Returns the peak-to-peak strain of the plates' outer faces per degree of peak-to-peak stroke.
 fn surface_strain_per_degree(p: &Params) -> f64 {
     let c = constants(p);
     0.5_f64.to_radians() / c.ratio * c.strain_per_tip * c.surface_strain_ratio

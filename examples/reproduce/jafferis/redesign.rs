@@ -1,4 +1,4 @@
-//! The redesigned vehicle of sections III-B and IV, at 200 V.
+//! Claims about the redesigned vehicle of sections III-B and IV, at 200 V.
 
 use flap_core::model::bimorph::Params;
 

@@ -1,4 +1,4 @@
-//! Frequency responses of Table I and of the scaled transmissions of Fig. 5.
+//! Claims about the frequency responses of the design of Table I and of the scaled transmissions of Fig. 5.
 
 use super::{bench, response, transmission};
 use crate::claim::{Claim, about, said};
@@ -19,14 +19,15 @@ pub(super) fn claims() -> Vec<Claim> {
     claims
 }
 
-/// The responses of T₁, T₂ and T₃, each at 160, 180, 200 and 240 V.
+/// The responses of the transmissions T₁, T₂ and T₃, each at 160, 180, 200 and 240 V.
 type Families = [[Response; 4]; 3];
 
-/// Positions of the responses at 160 V and at 200 V in a family.
+/// Index of the response at 160 V in the four responses of one transmission. The index for 200 V is in the
+/// next constant.
 const V_160: usize = 0;
 const V_200: usize = 2;
 
-/// The three regimes of section II-A, at voltages of T₁.
+/// Returns claims about the three regimes of motion in section II-A, for the transmission T₁.
 fn regimes() -> Vec<Claim> {
     let at = |voltage: f64| response(&transmission(1.0), voltage, [80.0, 160.0]);
     let [low, middle, sharp, high] = [80.0, 140.0, 160.0, 200.0].map(at);
@@ -71,7 +72,8 @@ fn regimes() -> Vec<Claim> {
     ]
 }
 
-/// The peak pitch where the stroke first rises by more than 1° per Hz, by central differences.
+/// Returns the peak pitch at the lowest frequency at which the stroke rises by more than 1° per Hz. The slope
+/// is a central difference.
 fn onset(response: &Response) -> f64 {
     let strokes = response.column("stroke_pp_deg");
     let angles = response.column("pitch_peak_deg");
@@ -133,7 +135,7 @@ fn small_peaks() -> Vec<Claim> {
         .into()
 }
 
-/// The effect of a lower transmission ratio, section III-A.
+/// Returns claims about the effect of a lower transmission ratio (section III-A).
 fn scaling(families: &Families) -> Vec<Claim> {
     let [t_1, t_2, t_3] = families;
     let mut claims = Vec::new();
@@ -222,7 +224,7 @@ fn scaling(families: &Families) -> Vec<Claim> {
     claims
 }
 
-/// The largest lift of a vehicle (mg).
+/// Returns the largest lift of the vehicle in a response (mg).
 fn lift(response: &Response) -> f64 {
     response.peak("vehicle_lift_mgf").1.get("vehicle_lift_mgf")
 }

@@ -1,5 +1,5 @@
-//! Sweeps of the frequency as in the measurements of the paper, Eq. (7), and the two motions of the sweeps with a soft
-//! hinge.
+//! Claims about chirps, in which the drive frequency changes as in the measurements of the paper (Eq. 7), and
+//! about the two motions with a soft hinge.
 
 use flap_core::model::ExperimentModel;
 use flap_core::model::bimorph::{Bimorph, Params};
@@ -13,12 +13,12 @@ pub(super) fn claims() -> Vec<Claim> {
     vec![as_settled(), soft_hinge()]
 }
 
-/// Table I at 160 V.
+/// Returns the design of Table I at 160 V.
 fn table_1() -> Params {
     Params { drive_voltage_pp: 160.0, ..transmission(1.0) }
 }
 
-/// Frequencies and strokes (degrees, peak to peak) of a sweep, cycle by cycle.
+/// Returns the frequency (Hz) and the peak-to-peak stroke (degrees) of each cycle of a chirp.
 fn swept(p: &Params, [from, to]: [f64; 2], rate: f64) -> Vec<(f64, f64)> {
     let bench = bench();
     let request = ChirpRequest { from, to, rate, samples_per_cycle: 0 };
@@ -30,7 +30,7 @@ fn swept(p: &Params, [from, to]: [f64; 2], rate: f64) -> Vec<(f64, f64)> {
     envelope.rows.iter().map(|row| (row[frequency], row[stroke])).collect()
 }
 
-/// The largest stroke, with its frequency first.
+/// Returns the frequency at which the stroke is largest, and the largest stroke.
 fn largest(sweep: &[(f64, f64)]) -> (f64, f64) {
     sweep.iter().copied().max_by(|a, b| a.1.total_cmp(&b.1)).expect("a sweep has cycles")
 }
@@ -60,8 +60,8 @@ fn as_settled() -> Claim {
     )
 }
 
-/// With half of the hinge stiffness, the natural frequencies of pitch and stroke are close, and the wing has two
-/// motions.
+/// Returns a claim about a soft hinge with half of the stiffness. With this hinge, the natural frequencies of
+/// pitch and stroke are close, and the wing has two settled motions.
 fn soft_hinge() -> Claim {
     let table_1 = table_1();
     let soft = Params { hinge_stiffness: 0.5 * table_1.hinge_stiffness, ..table_1.clone() };

@@ -1,4 +1,4 @@
-//! Hypotheses about misprints in Table A1.
+//! Claims with corrected numbers of Table A1, which test hypotheses about misprints in the table.
 
 use flap_core::model::direct_drive::Params;
 
@@ -7,15 +7,15 @@ use super::resonance::{self, after_an_impulse, largest_stroke_of_large, largest_
 use super::{Type, large, small};
 use crate::claim::{Claim, measured, said};
 
-/// Inertia of the leading edge of the small type (kg·m²), with one digit of Table A1 changed.
+/// Inertia of the leading edge of the small actuator (kg·m²). Compared with Table A1, one digit is changed.
 const LIGHTER: f64 = 3.39e-9;
 
-/// The names of the hypotheses, as last words of statements.
+/// Texts that name a hypothesis at the end of the statement of a claim.
 const SWAPPED: &str = ", with swapped hinge stiffnesses k_w";
 const SMALLER: &str = ", with J_B = 3.39e-9 kg·m² (small type)";
 const BOTH: &str = ", with swapped hinge stiffnesses k_w and J_B = 3.39e-9 kg·m² (small type)";
 
-/// Table A1 with one change or with both changes.
+/// Actuators with the parameters of Table A1, after one or both hypothetical misprints are corrected.
 struct Variants {
     swapped_small: Type,
     swapped_large: Type,
@@ -47,7 +47,7 @@ pub(super) fn claims() -> Vec<Claim> {
     claims
 }
 
-/// Claims about measured resonances.
+/// Returns claims about measured resonances.
 pub(super) fn driven() -> Vec<Claim> {
     let Variants { swapped_small, swapped_large, lighter_small, both } = variants();
     vec![
@@ -62,7 +62,7 @@ fn lighter(p: &Params) -> Params {
     Params { leading_edge_inertia: LIGHTER, ..p.clone() }
 }
 
-/// Claims about efficiencies at the largest voltages.
+/// Returns claims about the efficiencies at the largest drive voltages.
 fn efficiencies(hypothesis: &str, small: &Type, large: &Type) -> Vec<Claim> {
     let [s, l] = [small, large].map(|actuator| efficiency(&actuator.performance()[1]));
     vec![

@@ -1,10 +1,11 @@
-//! Motion, lift, power and efficiency, section 4.3 and Figs. 13 to 17.
+//! Claims about motion, lift, power and efficiency (section 4.3 and Figs. 13 to 17).
 
 use super::{Type, large, small};
 use crate::claim::{Claim, measured, said};
 use crate::points::Settled;
 
-/// Published efficiencies at the largest voltages (gf/W).
+/// Published efficiency of the small actuator at its largest drive voltage (gf/W). The next constant is the
+/// efficiency of the large actuator.
 pub(super) const SMALL: f64 = 10.8;
 pub(super) const LARGE: f64 = 7.31;
 

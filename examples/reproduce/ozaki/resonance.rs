@@ -1,18 +1,20 @@
-//! Resonance frequencies, section 4.2 and Figs. 9 and 10.
+//! Claims about resonance frequencies (section 4.2 and Figs. 9 and 10).
 
 use super::{Type, bench, large, small};
 use crate::claim::{Claim, about, closely, said};
 
-/// Impulses (rad): each number is the amplitude of the small undamped motion after the impulse.
+/// Sizes of impulses (rad). The size of an impulse is the stroke amplitude that it causes in the first mode
+/// alone, without damping.
 const IMPULSES: [f64; 3] = [0.3, 0.5, 0.8];
-/// Index of the impulse after which the first stroke peak of the large type is nearest to 20 deg.
+/// Index of the impulse after which the first stroke peak of the large actuator is nearest to 20 deg.
 const MIDDLE: usize = 1;
-/// Number of periods of the first mode to which the damped sine is fitted.
+/// The damped sine is fitted to this number of periods of the first mode.
 const WINDOW: u32 = 4;
-/// Other windows, to show how the frequency depends on the window.
+/// Longer fits, in periods of the first mode. These fits show how the fitted frequency depends on the number
+/// of periods.
 const LONGER: [u32; 2] = [5, 10];
 
-/// A published frequency (Hz), and its text on the page.
+/// A published frequency (Hz), and the text with which the page shows this frequency.
 pub(super) struct Published {
     shown: &'static str,
     frequency: f64,
@@ -23,7 +25,7 @@ pub(super) const LARGE: Published = Published { shown: "109 Hz (109.0 Hz)", freq
 const SMALL_MEASURED: Published = Published { shown: "210 Hz", frequency: 210.0 };
 const LARGE_MEASURED: Published = Published { shown: "105 Hz", frequency: 105.0 };
 
-/// Claims about frequencies that the paper calculates from an impulse.
+/// Returns claims about frequencies that the paper calculates from the motion after an impulse.
 pub(super) fn calculated() -> Vec<Claim> {
     let [small, large] = [small(), large()];
     let mut claims = by_size(&small, &SMALL);
@@ -52,7 +54,7 @@ pub(super) fn calculated() -> Vec<Claim> {
     claims
 }
 
-/// A claim for each impulse.
+/// Returns one claim for each size of the impulse.
 fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
     let claim = |impulse: f64| {
         let swing = bench().swing(&actuator.params.to_values(), impulse, WINDOW);
@@ -77,7 +79,8 @@ fn by_size(actuator: &Type, published: &Published) -> Vec<Claim> {
     IMPULSES.map(claim).into()
 }
 
-/// A claim for the impulse in the middle, followed by the frequencies of the other impulses.
+/// Returns a claim about the impulse of 0.5 rad. The text of the claim also contains the frequencies after
+/// impulses of 0.3 and 0.8 rad.
 pub(super) fn after_an_impulse(hypothesis: &str, actuator: &Type, published: &Published) -> Claim {
     let [weak, middle, strong] = IMPULSES.map(|impulse| fitted(actuator, impulse, WINDOW));
     said(
@@ -101,18 +104,18 @@ pub(super) fn after_an_impulse(hypothesis: &str, actuator: &Type, published: &Pu
     )
 }
 
-/// Frequency of the damped sine that fits the stroke after an impulse (Hz).
+/// Returns the frequency (Hz) of the damped sine that is fitted to the stroke after an impulse.
 fn fitted(actuator: &Type, impulse: f64, window: u32) -> f64 {
     bench().swing(&actuator.params.to_values(), impulse, window).fit.frequency
 }
 
-/// Frequency of small motions (Hz).
+/// Returns the natural frequency of the first mode in small motions (Hz).
 fn mode(actuator: &Type) -> f64 {
     let modes = bench().experiments().modes(&actuator.params.to_values());
     modes.expect("published parameters are possible")[0].frequency
 }
 
-/// Claims about measured resonances, at which the stroke is largest.
+/// Returns claims about measured drive frequencies at which the stroke is largest.
 pub(super) fn driven() -> Vec<Claim> {
     vec![
         largest_stroke_of_small("", &small(), [190.0, 202.0]),
@@ -128,8 +131,9 @@ pub(super) fn largest_stroke_of_large(hypothesis: &str, actuator: &Type, range: 
     largest_stroke(hypothesis, actuator, range, &LARGE_MEASURED)
 }
 
-/// The voltage of the measurement is unknown, so the claim compares with the frequencies between the lowest and the
-/// highest voltage. The function searches for peaks within `range`.
+/// Returns a claim about the drive frequency of the largest stroke, which is searched within `range`. The
+/// voltage of the measurement is unknown, so the published frequency is compared with the frequencies between
+/// the peaks at two voltages.
 fn largest_stroke(hypothesis: &str, actuator: &Type, range: [f64; 2], published: &Published) -> Claim {
     let [low, high] = actuator.voltages.map(|v_0| {
         let (peak, _) = actuator.response(v_0, range).peak("stroke_amplitude_deg");

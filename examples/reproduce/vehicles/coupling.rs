@@ -1,13 +1,14 @@
-//! Simultaneous commands for roll and pitch.
+//! Claims about simultaneous commands for roll and pitch.
 
 use super::flier::{Flier, torques};
 use crate::claim::{Claim, assumed, between, said};
 
-/// Commands to both sides: differences of the amplitude and biases (V).
+/// Commands for roll: differences between the drive voltages of the left and the right wing (V). The next
+/// constant has the commands for pitch: bias voltages (V).
 const DIFFERENCES: [f64; 5] = [-40.0, -20.0, 0.0, 20.0, 40.0];
 const BIASES: [f64; 5] = [-20.0, -10.0, 0.0, 10.0, 20.0];
 
-/// A pair of commands (V), and the resulting torques and lift.
+/// Two simultaneous commands (V), and the resulting torques and lift.
 struct Commanded {
     difference: f64,
     bias: f64,
@@ -137,7 +138,7 @@ fn commanded() -> Vec<Commanded> {
     .collect()
 }
 
-/// Pearson's correlation.
+/// Returns Pearson's correlation coefficient of two lists of numbers.
 fn correlation(xs: &[f64], ys: &[f64]) -> f64 {
     let count = f64::from(u32::try_from(xs.len()).expect("commands are few"));
     let mean = |values: &[f64]| values.iter().sum::<f64>() / count;
@@ -147,7 +148,7 @@ fn correlation(xs: &[f64], ys: &[f64]) -> f64 {
     sum(&|a, b| a * b) / (sum(&|a, _| a * a) * sum(&|_, b| b * b)).sqrt()
 }
 
-/// The largest number minus the smallest number.
+/// Returns the largest minus the smallest number of a list.
 fn range(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::MIN, f64::max) - values.iter().copied().fold(f64::MAX, f64::min)
 }

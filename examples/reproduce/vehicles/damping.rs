@@ -1,24 +1,26 @@
-//! Damping of the body's motion.
+//! Claims about the aerodynamic damping of the body's motion.
 
 use flap_core::vehicle::{FORCES, TORQUES};
 
 use super::flier::Flier;
 use crate::claim::{Claim, assumed, measured, said};
 
-/// Change of a velocity of the body (m/s) in differences.
+/// Change of the body's velocity (m/s) with which derivatives are estimated by central differences.
 const VELOCITY: f64 = 0.02;
 
-/// Change of a rate of the body (rad/s) in differences.
+/// Change of the body's angular rate (rad/s) with which derivatives are estimated by central differences.
 const RATE: f64 = 2.0;
 
-/// The damping: minus the change of a column per change of a motion of the body, in SI units.
+/// Returns a damping coefficient in SI units: minus the derivative of a force or torque with respect to a
+/// velocity or rate of the body.
 fn damping(flier: &Flier, column: &str, motion: &'static str, step: f64) -> f64 {
     let sides = flier.settle(&[vec![(motion, step)], vec![(motion, -step)]]);
     let unit = if FORCES.contains(&column) { 1e-3 } else { 1e-6 };
     -(sides[0].get(column) - sides[1].get(column)) * unit / (2.0 * step)
 }
 
-/// Two wings of a preset, 2 mm beside the middle and 3 mm above the centre of mass.
+/// Returns a vehicle with two wings of a preset, 2 mm to the left and to the right of the middle and 3 mm
+/// above the centre of mass.
 fn flier(preset: &str, voltage: f64, frequency: f64) -> Flier {
     Flier::new(preset, &[("left", false), ("right", true)]).with(&[
         ("left_position_y", 2e-3),

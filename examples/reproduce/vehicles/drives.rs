@@ -1,4 +1,4 @@
-//! The drive inputs of a vehicle, and the torque of each input.
+//! Claims about the torque that each drive input of a vehicle produces.
 
 use flap_core::drive::Shape;
 
@@ -6,7 +6,7 @@ use super::flier::{Flier, rounded, shown, torques};
 use crate::claim::{Claim, between, said};
 use crate::points::Settled;
 
-/// Share of the amplitude by which each drive is changed.
+/// Change of each drive input, as a fraction of the drive amplitude.
 const SHARE: f64 = 0.2;
 const SENSOR: &str = "Finio and others, I";
 const TORQUE: &str = "torque of a robotic fly with asymmetric flapping";
@@ -80,7 +80,7 @@ pub(super) fn claims() -> Vec<Claim> {
     ]
 }
 
-/// A claim about the magnitude of a torque.
+/// Returns a claim about the magnitude of a torque.
 fn of_size(name: &str, torque: f64, besides: &str) -> Claim {
     said(SENSOR, format!("predicted {name} {TORQUE}"), "1 to 10 µN·m").is(
         &between(1.0, 10.0),
@@ -89,17 +89,19 @@ fn of_size(name: &str, torque: f64, besides: &str) -> Claim {
     )
 }
 
-/// Fractions of a difference for which the torque is also computed.
+/// The torque is also computed for these fractions of a voltage difference.
 const PARTS: [f64; 3] = [0.5, 0.625, 0.75];
 
-/// Points with a difference of the drives, and with fractions of the difference.
+/// Returns settled motions with a difference between the drive voltages of the two wings: first the whole
+/// difference, then fractions of the difference.
 fn rolls(pair: &Flier, difference: f64) -> Vec<Settled> {
     let points =
         [1.0].iter().chain(&PARTS).map(|part| vec![("difference_drive_voltage_pp", part * difference)]);
     pair.settle(&points.collect::<Vec<_>>())
 }
 
-/// The text with the roll torques of smaller differences, and with the lift of the wing with the smaller drive.
+/// Returns a text with the roll torques at smaller voltage differences, and with the lift of the wing that
+/// has the smaller drive voltage.
 fn with_less(points: &[Settled], difference: f64) -> String {
     let parts = PARTS.iter().zip(&points[1..]);
     let torques = parts
@@ -115,8 +117,8 @@ fn with_less(points: &[Settled], difference: f64) -> String {
     )
 }
 
-/// The phase (degrees, in steps of 15) at which a second harmonic makes the largest yaw torque, and the torques at this
-/// phase.
+/// Returns the phase (degrees, in steps of 15) at which a second harmonic produces the largest yaw torque,
+/// and the three torques at this phase.
 fn split_cycle() -> (f64, [f64; 3]) {
     let pair = Flier::pair().choose("drive_shape", Shape::Harmonics as usize);
     let phases: Vec<f64> = (0..24).map(|i| 15.0 * f64::from(i)).collect();

@@ -1,4 +1,4 @@
-//! Vehicles with wings of a preset.
+//! Vehicles whose wings are all copies of one preset.
 
 use flap_core::parameter::Parameter;
 use flap_core::simulate::{Simulator as _, preset};
@@ -6,17 +6,18 @@ use flap_core::vehicle::{Mount, TORQUES, Vehicle};
 
 use crate::points::{Bench, Settled};
 
-/// Values that replace the vehicle's parameters, by name.
+/// Names of parameters with values that replace the values of the vehicle.
 pub(super) type Changes = Vec<(&'static str, f64)>;
 
-/// A vehicle, and the values of its parameters.
+/// A vehicle, and the values of all its parameters.
 pub(super) struct Flier {
     bench: Bench,
     values: Vec<f64>,
 }
 
 impl Flier {
-    /// A vehicle with the wings `wings` of a preset; each wing has a name and is mirrored if `true`.
+    /// Returns a vehicle with wings of the preset `name`. Each entry of `wings` is the name of a wing, and
+    /// true if the wing is mirrored.
     pub(super) fn new(name: &str, wings: &[(&str, bool)]) -> Flier {
         let (model, preset) = preset(name).expect("flap has this preset");
         let mounts: Vec<Mount> =
@@ -30,7 +31,7 @@ impl Flier {
         Flier { bench: Bench { model: vehicle, ..Bench::new(model.name(), 1e-4) }, values }
     }
 
-    /// Two wings of `jafferis2016`.
+    /// Returns a vehicle with two wings of the preset `jafferis2016`.
     pub(super) fn pair() -> Flier {
         Flier::new("jafferis2016", &[("left", false), ("right", true)]).with(&[
             ("left_position_y", 1.5e-3),
@@ -39,28 +40,28 @@ impl Flier {
         ])
     }
 
-    /// The same vehicle with other parameter values.
+    /// Returns the same vehicle with changed parameter values.
     pub(super) fn with(mut self, changes: &[(&str, f64)]) -> Flier {
         self.values = self.changed(changes);
         self
     }
 
-    /// The same vehicle with another option of a choice.
+    /// Returns the same vehicle with a different option of the choice `name`.
     pub(super) fn choose(self, name: &'static str, option: usize) -> Flier {
         self.with(&[(name, f64::from(u32::try_from(option).expect("options are few")))])
     }
 
-    /// A value of the vehicle.
+    /// Returns the value of the vehicle's parameter `name`.
     pub(super) fn value(&self, name: &str) -> f64 {
         self.values[self.place(name)]
     }
 
-    /// Returns the settled motion for each list of changes.
+    /// Returns one settled motion of the vehicle for each list of changed parameters.
     pub(super) fn settle(&self, points: &[Changes]) -> Vec<Settled> {
         self.bench.settle(points.iter().map(|changes| self.changed(changes)).collect())
     }
 
-    /// Returns the settled motion for a list of changes.
+    /// Returns the settled motion of the vehicle with one list of changed parameters.
     pub(super) fn point(&self, changes: &[(&'static str, f64)]) -> Settled {
         self.settle(&[changes.to_vec()]).remove(0)
     }
@@ -78,12 +79,12 @@ impl Flier {
     }
 }
 
-/// Roll, pitch and yaw torque (µN·m).
+/// Returns the roll, pitch and yaw torque of a settled motion (µN·m).
 pub(super) fn torques(point: &Settled) -> [f64; 3] {
     TORQUES.map(|column| point.get(column))
 }
 
-/// Returns three torques as text.
+/// Returns the roll, pitch and yaw torque as text.
 pub(super) fn shown([roll, pitch, yaw]: [f64; 3]) -> String {
     format!(
         "roll torque {}, pitch torque {}, yaw torque {} µN·m",
@@ -93,7 +94,7 @@ pub(super) fn shown([roll, pitch, yaw]: [f64; 3]) -> String {
     )
 }
 
-/// A torque with two decimals. A torque that rounds to zero has no sign.
+/// Returns a torque as text with two decimals. A torque that rounds to zero is written without a sign.
 pub(super) fn rounded(torque: f64) -> String {
     let text = format!("{torque:.2}");
     if text == "-0.00" { "0.00".to_owned() } else { text }

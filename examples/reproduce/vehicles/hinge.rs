@@ -1,4 +1,4 @@
-//! Yaw torque of split-cycle drives against the stiffness of the hinge.
+//! Claims about the yaw torque of split-cycle drives as a function of the hinge stiffness.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -7,7 +7,7 @@ use flap_core::drive::Shape;
 use super::flier::{Flier, rounded, torques};
 use crate::claim::{Claim, said};
 
-/// Stiffness of the hinge divided by the stiffness in the preset.
+/// Hinge stiffnesses, each divided by the hinge stiffness of the preset.
 const FACTORS: [f64; 7] = [0.6, 0.8, 1.0, 1.2, 1.5, 2.0, 3.0];
 
 pub(super) fn claims() -> Vec<Claim> {

@@ -1,4 +1,4 @@
-//! Vehicles with four wings.
+//! Claims about vehicles with four wings.
 
 use nalgebra::{Matrix4, Vector4};
 
@@ -8,7 +8,7 @@ use crate::claim::{Claim, said};
 /// The names of the four wings, each with `true` if the wing is mirrored.
 const WINGS: [(&str, bool); 4] =
     [("front_left", false), ("front_right", true), ("back_left", false), ("back_right", true)];
-/// The parameters with the voltages of the four wings.
+/// The names of the parameters that contain the drive voltages of the four wings.
 const VOLTAGES: [&str; 4] = [
     "front_left_drive_voltage_pp",
     "front_right_drive_voltage_pp",
@@ -63,7 +63,8 @@ pub(super) fn claims() -> Vec<Claim> {
     ]
 }
 
-/// Four direct-drive wings around the middle, which are tilted towards the middle along x by `tilt` (rad).
+/// Returns a vehicle with four direct-drive wings around the middle of the body. The angle `tilt` (rad) tilts
+/// each stroke plane about the y-axis towards the middle.
 fn direct_drive(tilt: f64) -> Flier {
     Flier::new("ozaki2018-large", &WINGS).with(&[
         ("front_left_position_x", 10e-3),
@@ -81,7 +82,8 @@ fn direct_drive(tilt: f64) -> Flier {
     ])
 }
 
-/// Changes of lift (mN), roll, pitch and yaw (µN·m), in rows, per volt of each wing, in columns.
+/// Returns the changes of lift (mN) and of the roll, pitch and yaw torque (µN·m) per volt. Each column of the
+/// matrix is one wing.
 fn effects(flier: &Flier) -> Matrix4<f64> {
     let volts = flier.value("drive_voltage_pp");
     let points: Vec<_> =
@@ -97,7 +99,7 @@ fn effects(flier: &Flier) -> Matrix4<f64> {
     })
 }
 
-/// The payload (mg) of four bimorph wings that carry 143 mg.
+/// Returns the payload (mg) of a vehicle with four bimorph wings and a mass of 143 mg.
 fn payload() -> f64 {
     let lift = Flier::new("jafferis2016", &WINGS).point(&[]).get("force_up_mn");
     lift / GRAVITY * 1e3 - 143.0

@@ -1,4 +1,4 @@
-//! Signals of the motor-driven wing, and the columns computed from them.
+//! Signals of the motor-driven wing, and the columns that are computed from the signals.
 
 use flap_core::model::readings::{efficiency, grams_force};
 use flap_core::model::{Derived, Measure, Model, Unit};

@@ -67,7 +67,8 @@ impl Params {
         },
     ];
 
-    /// The published motor and materials, at a voltage (V) and frequency (Hz) and with wings of a length (m).
+    /// Returns parameters with the published motor and materials, and with the given voltage (V), frequency
+    /// (Hz) and wing length (m).
     pub(crate) fn park2024(drive_voltage: f64, drive_frequency: f64, wing_length: f64) -> Params {
         Params {
             drive_voltage,
