@@ -34,8 +34,8 @@ impl<O: Oscillator<N>, const N: usize> Ode<N> for Forced<O> {
     type Constants<R: Real> = Drive<R>;
     type Input<R: Real> = R;
 
-    /// Returns the force at time `t`. The integrator computes values that depend only on time separately from
-    /// the rates of the state.
+    /// Returns the force at time `t`. Only the time determines the force, so the force is computed separately
+    /// from the rates of the states.
     #[inline(always)]
     fn input<R: Real>(&self, c: &Drive<R>, t: R) -> R {
         c.force * (c.frequency * t).sin()

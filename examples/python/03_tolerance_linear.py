@@ -3,9 +3,9 @@
 Six parameters of the bimorph of Jafferis et al. vary by 1 % and by 5 % (standard deviations). The linear standard
 deviation of a measure is sqrt(sum of (derivative * deviation)^2), computed from one row with derivatives. The sampled
 standard deviation is computed from the rows of all builds. The linear and the sampled standard deviation agree if the
-measure is nearly linear over the deviations of the parameters. Near a peak they differ, because the derivatives are
-small but every deviation lowers the measure. On the flank of a resonance they differ, because some builds lose most of
-the lift.
+measure is nearly linear over the deviations of the parameters. Near a peak, the two standard deviations differ, because
+the derivatives are small but every deviation lowers the measure. On the flank of a resonance, the two standard
+deviations differ, because some builds lose most of the lift.
 
     python 03_tolerance_linear.py
     python 03_tolerance_linear.py --deviation 0.02 --builds 4096

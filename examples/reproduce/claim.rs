@@ -22,12 +22,12 @@ pub(crate) enum Verdict {
     /// The computed number equals the rounded published number, or the computed motions fulfil the statement.
     Met,
     /// The difference between the computed and the published number is within the limit of the claim. The
-    /// value is the relative difference.
+    /// contained number is the relative difference.
     MetWithin(f64),
     /// The difference between the two numbers exceeds the limit of the claim, or the computed motions do not
     /// fulfil the statement.
     NotReproduced,
-    /// The paper lacks the numbers for a comparison. The value is the reason.
+    /// The paper lacks the numbers for a comparison. The contained text is the reason.
     CannotBeChecked(&'static str),
 }
 
@@ -67,8 +67,8 @@ pub(crate) fn measured(value: f64, rounding: f64) -> Expected {
     Expected { value, rounding, limit: MEASURED }
 }
 
-/// Returns the expected value of a number of a robot whose wing and actuator are assumed, because the paper
-/// does not describe the wing and the actuator.
+/// Returns the expected value of a number, for a robot whose wing and actuator are assumed. The paper does
+/// not describe this wing and this actuator.
 pub(crate) fn assumed(value: f64, rounding: f64) -> Expected {
     Expected { value, rounding, limit: ASSUMED }
 }
@@ -110,8 +110,8 @@ impl Said {
         self.claim(shown.into(), expected.verdict(computed))
     }
 
-    /// Returns a claim whose verdict is met if `holds` is true, because the computed motions fulfil the
-    /// statement.
+    /// Returns a claim with the verdict `Met` if `holds` is true, and with the verdict `NotReproduced`
+    /// otherwise.
     pub(crate) fn holds(self, holds: bool, shown: impl Into<String>) -> Claim {
         self.claim(shown.into(), if holds { Verdict::Met } else { Verdict::NotReproduced })
     }

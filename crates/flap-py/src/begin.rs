@@ -57,8 +57,8 @@ pub(crate) fn rows(begin: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<Option<Vec
     begin.as_array().rows().into_iter().enumerate().map(state).collect()
 }
 
-/// Returns the index of the component `name` in the state vector, and the factor that converts the unit of
-/// the name to the unit of the state.
+/// Returns the index of the component `name` in the state vector. Also returns the factor from the unit of
+/// `name` to the unit of the state.
 fn component(states: &[String], name: &str) -> PyResult<(usize, f64)> {
     for (index, state) in states.iter().enumerate() {
         let (words, unit) = split_unit(state);

@@ -75,8 +75,8 @@ impl Columns {
         }
     }
 
-    /// Adds a row whose cells are texts from a file. If the text of a cell does not have the kind of its
-    /// column, returns the name of the column as an error.
+    /// Adds a row whose cells are texts from a file. If a text cannot be converted to the kind of its column,
+    /// returns the name of the column as an error.
     pub(crate) fn push_record<'a>(&mut self, cells: impl Iterator<Item = &'a str>) -> Result<(), &str> {
         for ((column, data), text) in self.columns.iter_mut().zip(cells) {
             data.push(Cell::parse(column.kind, text).ok_or(column.name.as_str())?);

@@ -36,7 +36,7 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
 }
 
 /// Returns the size of an impulse (rad) from a number in rad or text with a unit. An impulse of more than
-/// half a turn is a `ValueError`. All other errors are those of the function [`quantity`].
+/// half a turn is a `ValueError`. All further errors are the errors of the function [`quantity`].
 pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let amplitude = quantity(name, "rad", true, value)?;
     resonance::impulse(amplitude)

@@ -27,15 +27,16 @@ pub(crate) fn colours(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     Ok(found)
 }
 
-/// Return the positions of `count` ordered lines in the sequential colour map; None for a single line.
+/// Return the colours of `count` ordered lines, as positions in the sequential colour map. Return None for a
+/// single line.
 #[pyfunction]
 #[pyo3(signature = (count, /))]
 pub(crate) fn line_shades(count: usize) -> Option<Vec<f64>> {
     (0..count).map(|index| table::shade(index, count)).collect()
 }
 
-/// Return True if numbers from `low` to `high` have both signs. Numbers of both signs require a diverging map with zero
-/// in the middle.
+/// Return True if the range from `low` to `high` contains negative and positive numbers. A picture of such a
+/// range requires a diverging colour map with zero in the middle.
 #[pyfunction]
 #[pyo3(signature = (low, high, /))]
 pub(crate) fn is_signed(low: f64, high: f64) -> bool {

@@ -50,8 +50,8 @@ impl Wave {
     }
 }
 
-/// Reads a record from a file or from a dictionary of float64 arrays. Error messages use `name` as the name
-/// of the record.
+/// Reads a record (values over time) from a file or from a dictionary of float64 arrays. Error messages use
+/// `name` as the name of the record.
 pub(crate) fn read(name: &str, source: &Bound<'_, PyAny>) -> PyResult<Record> {
     let Ok(columns) = source.cast::<PyDict>() else {
         let path: PathBuf = source.extract()?;
@@ -63,12 +63,12 @@ pub(crate) fn read(name: &str, source: &Bound<'_, PyAny>) -> PyResult<Record> {
     Record::of(name, columns.collect::<PyResult<_>>()?).map_err(|error| refused(&error))
 }
 
-/// Returns the samples of one quantity of a record.
+/// Returns the samples over time of one quantity of a record.
 pub(crate) fn samples(record: &Record, quantity: &Quantity<'_>, repeat: Repeat) -> PyResult<Samples> {
     record.samples(quantity, repeat).map_err(|error| refused(&error))
 }
 
-/// Returns the exception for a record that cannot be used.
+/// Returns the exception for a record of values over time that cannot be used.
 pub(crate) fn refused(error: &RecordError) -> PyErr {
     match error {
         RecordError::Read { name, source } => error::io_error(&format!("cannot read {name}"), source),

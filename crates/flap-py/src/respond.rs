@@ -25,9 +25,9 @@ struct Judged {
     bands: Vec<Band>,
 }
 
-/// A bistable band: the ends of the band in SI units, and the largest difference between the peak-to-peak
-/// strokes of the rising and the falling branch (deg). The difference is NaN if no point of the band has
-/// periodic motions on the two branches.
+/// A bistable band: the ends of the band in SI units, and the stroke difference. The stroke difference is the
+/// largest difference between the peak-to-peak strokes of the rising and the falling branch (deg). The stroke
+/// difference is NaN if no point of the band has periodic motions on the two branches.
 #[derive(IntoPyObject)]
 struct Band {
     start: f64,

@@ -1,4 +1,4 @@
-//! Runs single design points: rows and motions.
+//! Computes the rows and the motions of single design points.
 
 use flap_core::simulate::{Row, TrajectoryRequest};
 use flap_sweep::notation::expression::Kind;

@@ -18,7 +18,8 @@ pub(crate) fn settings() -> Vec<&'static str> {
 pub(crate) struct Keywords<'py>(Vec<Keyword<'py>>);
 
 impl<'py> Keywords<'py> {
-    /// Splits keywords into solver settings and other keywords. A setting that is None counts as not given.
+    /// Separates the solver settings of a call from all other keyword arguments. A setting that is None
+    /// counts as not given.
     pub(crate) fn take(
         keywords: Option<&Bound<'py, PyDict>>,
     ) -> PyResult<(Keywords<'py>, Vec<Keyword<'py>>)> {

@@ -27,8 +27,8 @@ const CHECKPOINT: Duration = Duration::from_secs(1);
 
 /// Run a grid; see `flapwing.sweep`.
 ///
-/// `chunks` is a function that returns rows of other processes. The argument of `chunks` is the number of
-/// finished points, and the result is the next chunk of rows as bytes.
+/// `chunks` is a function that returns rows that other processes have computed. The argument of `chunks` is
+/// the number of finished points, and the result is the next chunk of rows as bytes.
 #[pyfunction]
 #[pyo3(signature = (grid, /, *, out=None, restart=false, threads=None, progress=None, chunks=None))]
 pub(crate) fn sweep<'py>(
@@ -99,8 +99,8 @@ fn into_columns<'py>(
     Ok(dict)
 }
 
-/// Runs a job and returns its `summary`, `axes` and `meta`. The summary includes rows of earlier runs. The
-/// summary is empty if the file already contained all rows.
+/// Runs a job and returns its `summary`, `axes` and `meta`. The summary also counts the rows that earlier
+/// runs have written to the file. The summary is empty if the file already contained all rows.
 fn into_file<'py>(
     py: Python<'py>,
     job: &Job<'_>,

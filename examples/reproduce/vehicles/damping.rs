@@ -19,8 +19,8 @@ fn damping(flier: &Flier, column: &str, motion: &'static str, step: f64) -> f64 
     -(sides[0].get(column) - sides[1].get(column)) * unit / (2.0 * step)
 }
 
-/// Returns a vehicle with two wings of a preset, 2 mm to the left and to the right of the middle and 3 mm
-/// above the centre of mass.
+/// Returns a vehicle with two wings of a preset. The wings are 2 mm to the left and to the right of the
+/// middle, and 3 mm above the centre of mass.
 fn flier(preset: &str, voltage: f64, frequency: f64) -> Flier {
     Flier::new(preset, &[("left", false), ("right", true)]).with(&[
         ("left_position_y", 2e-3),

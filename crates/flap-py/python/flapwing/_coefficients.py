@@ -171,8 +171,8 @@ _Law = tuple[Callable[[Array], list[Array]], int, Callable[..., dict[str, float]
 
 
 def _laws(known: set[str]) -> dict[str, _Law]:
-    """Return the laws for each column of the table. The names in `known` are the parameters of the model and determine
-    the form of the laws."""
+    """Return the law (the formula) for each column of a table of coefficients. The names in `known` are the parameters
+    of the model and determine the form of the laws."""
     if not {"lift_term_1", "drag_term_0", "pressure_term_0"} <= known:
         raise ValueError("the model of the design does not have these laws\nuse bimorph, direct-drive or four-bar")
     sine = "lift_amplitude" in known

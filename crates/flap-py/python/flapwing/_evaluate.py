@@ -36,8 +36,8 @@ def evaluate(
     """Run a batch of design points, given as columns of parameters.
 
     Use `evaluate` in optimisers, samplers and fits. You give the parameters of all points as arrays. `evaluate` returns
-    the measures of the points as arrays, in the order of the points. All points run at the same time, on all cores. The
-    row of a point does not depend on the other points of the batch.
+    the measures of the points as arrays, in the order of the points. The points are computed in parallel, on all cores.
+    The row of a point does not depend on the other points of the batch.
 
     Parameters
     ----------
@@ -80,14 +80,14 @@ def evaluate(
     Returns
     -------
     Table
-        One row for each row of `columns`, in the order of `columns`. With a grid that has axes, each row of `columns`
-        gives one row for each point of the axes. In the table, all points of the axes for one row of `columns` come
-        before the points of the next row. With a grid that has axes, `Table.axes` begins with the axis `row`. Points
-        that ``[where]`` excludes have no row, but the indices in the column `point` count the excluded points too. A
-        row has the status ``"invalid"`` if a value is out of range, infinite or not a number. A row is also invalid if
-        the combination of parameter values is impossible. ``table.meta["invalid"]`` has the reasons why the first few
-        points are invalid. With `gradient`, a missing derivative is nan, and the column ``gradient_gap`` has the
-        reason.
+        One row for each row of `columns`, in the order of `columns`. If the grid has axes, the table has one row for
+        each combination of a row of `columns` and a point of the axes. In the table, all points of the axes for one row
+        of `columns` come before the points of the next row. With a grid that has axes, `Table.axes` begins with the
+        axis `row`. Points that ``[where]`` excludes have no row, but the indices in the column `point` count the
+        excluded points too. A row has the status ``"invalid"`` if a value is out of range, infinite or not a number. A
+        row is also invalid if the combination of parameter values is impossible. ``table.meta["invalid"]`` has the
+        reasons why the first few points are invalid. With `gradient`, a missing derivative is nan, and the column
+        ``gradient_gap`` has the reason.
 
     Raises
     ------

@@ -64,7 +64,7 @@ def hover_eigenvalues(
     ------
     ValueError
         Raised if a column of the damping matrix is missing, or `body_inertia` has not three entries. Raised if an
-        argument is not a number or an array with a number for each row. Raised if the inertia of the body is not
+        argument is neither a number nor an array with one number for each row. Raised if the inertia of the body is not
         positive definite.
     TypeError
         Raised if `rows` has no columns.

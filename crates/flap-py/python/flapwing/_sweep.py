@@ -38,9 +38,9 @@ def sweep(
         File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. The sweep writes each row to the file as soon as
         possible. The command ``flap sweep --out`` writes a file with the same bytes. The sidecar, which is a file in
         the folder of `out`, records the origin of the rows. If `out` has unfinished results of the grid, the sweep
-        continues after the last row. If `out` has all rows, no point is run. If `out` has anything except results of
-        the grid, the sweep raises an error. By default, rows are kept in memory, with about half a kilobyte for each
-        row.
+        continues after the last row. If `out` already has all rows, no point is computed. If `out` has anything except
+        results of the grid, the sweep raises an error. By default, rows are kept in memory, with about half a kilobyte
+        for each row.
     restart : bool, optional
         If True, the sweep computes all rows again, and replaces the results in `out` when the new results are complete.
     threads : int, optional

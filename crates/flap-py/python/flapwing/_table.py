@@ -240,8 +240,8 @@ class Table:
 
     @property
     def periodic(self) -> Table:
-        """The rows that have the status ``"periodic"``, as a table. Of the rows with other statuses, only unstable
-        orbits of `respond` have measures.
+        """The rows that have the status ``"periodic"``, as a table. Rows with a different status have no measures,
+        except unstable orbits of `respond`.
         """
         return self[self["status"] == "periodic"]
 
