@@ -98,7 +98,7 @@ def main() -> None:
 
 
 def step(atlas: xarray.Dataset, dimension: int) -> int:
-    """Return a step for printing the values along an axis of the map. With this step, at most eight values are
+    """Return the step for printing the values along an axis of the map, so that at most eight values of the axis are
     printed."""
     return -(-list(atlas["lift_mean_mn"].shape)[dimension] // 8)
 

@@ -68,7 +68,7 @@ pub(crate) fn measured(value: f64, rounding: f64) -> Expected {
 }
 
 /// Returns the expected value of a number, for a robot whose wing and actuator are assumed. The paper does
-/// not describe this wing and this actuator.
+/// not describe the wing and the actuator of the robot.
 pub(crate) fn assumed(value: f64, rounding: f64) -> Expected {
     Expected { value, rounding, limit: ASSUMED }
 }

@@ -10,9 +10,9 @@ use crate::grid::Grid;
 use crate::watch::Watch;
 use crate::{error, sweep};
 
-/// Run the points from `begin` up to, but not including, `end`. Return the rows as bytes. The argument
-/// `chunks` of `sweep` is a function that returns rows in this form. If `first` is given, the points are a
-/// part of a larger grid, and `first` is the index of the first point in the larger grid.
+/// Run the points from `begin` up to, but not including, `end`. Return the rows as bytes. The function
+/// `chunks`, which is an argument of `sweep`, returns rows as the same kind of bytes. If `first` is given,
+/// the points are a part of a larger grid, and `first` is the index of the first point in the larger grid.
 #[pyfunction]
 #[pyo3(signature = (grid, begin, end, /, *, first=None, threads=None))]
 pub(crate) fn part<'py>(

@@ -36,7 +36,8 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
 }
 
 /// Returns the size of an impulse (rad) from a number in rad or text with a unit. An impulse of more than
-/// half a turn is a `ValueError`. All further errors are the errors of the function [`quantity`].
+/// half a turn is a `ValueError`. If `value` cannot be converted to a number, the error is the same as for
+/// [`quantity`].
 pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let amplitude = quantity(name, "rad", true, value)?;
     resonance::impulse(amplitude)
@@ -58,8 +59,8 @@ pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'
     }
 }
 
-/// Returns a whole number from 1 to the largest `u32`. A value of another type is a `TypeError`, and a number
-/// outside of this range is a `ValueError`.
+/// Returns a whole number from 1 to the largest `u32`. A value that is not a whole number is a `TypeError`,
+/// and a whole number outside of the range is a `ValueError`.
 pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
     let wanted = "a whole number";
     if value.is_instance_of::<PyBool>() {

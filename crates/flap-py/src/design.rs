@@ -76,7 +76,7 @@ fn with_solver(plan: Plan, keywords: &Keywords<'_>) -> PyResult<Plan> {
 }
 
 /// Sets parameters of all points to the values of keyword arguments. Returns the changed plan and the indices
-/// of these parameters.
+/// of the changed parameters.
 fn set(mut plan: Plan, keywords: &[Keyword<'_>]) -> PyResult<(Plan, Vec<usize>)> {
     let mut indices = Vec::new();
     for (name, value) in keywords {
@@ -88,8 +88,8 @@ fn set(mut plan: Plan, keywords: &[Keyword<'_>]) -> PyResult<(Plan, Vec<usize>)>
     Ok((plan, indices))
 }
 
-/// Returns the exception for a change of a plan that is not allowed. In the message, the text `given` follows
-/// the name of the parameter, for example "set here".
+/// Returns the exception for a forbidden change of a plan. In the message, the text `given` follows the name
+/// of the parameter, for example "set here".
 pub(crate) fn refused(given: &str, error: &ChangeError) -> PyErr {
     PyValueError::new_err(match error {
         ChangeError::Varied(name) | ChangeError::Derived(name) => {

@@ -82,8 +82,8 @@ pub(crate) fn check(
     measures.map_or(Ok(()), |measures| with_columns(plan, &measures).map(drop))
 }
 
-/// Returns an error if a parameter is given both as a column and as a keyword argument. Without this error,
-/// the keyword argument would have no effect.
+/// Returns an error if a parameter is given both as a column and as a keyword argument. Without the check,
+/// the column would silently replace the keyword argument.
 fn refuse_twice(columns: &Bound<'_, PyDict>, keywords: &Bound<'_, PyDict>) -> PyResult<()> {
     for name in keywords.keys() {
         if columns.contains(&name)? {

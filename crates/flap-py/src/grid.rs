@@ -62,7 +62,7 @@ impl Grid {
     }
 
     /// Returns point number `index`: a dictionary of numbers in SI units and names of options. For a slice,
-    /// returns a list of such dictionaries.
+    /// returns a list with one dictionary per point.
     fn __getitem__<'py>(&self, py: Python<'py>, index: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
         if let Ok(slice) = index.cast::<PySlice>() {
             let length = isize::try_from(self.__len__()?).unwrap_or(isize::MAX);

@@ -1,8 +1,8 @@
 //! Converts a dictionary to the text of a grid file, so that messages can show the lines of mistakes.
 //!
 //! Tables keep the order of the dictionary, because the order of the axes determines the order of the points.
-//! When flap reads a user's object, the object may raise an exception. [`convert::failed`] converts such an
-//! exception to a `TypeError`.
+//! When flap reads a user's object, the object may raise an exception. [`convert::failed`] converts the
+//! exception of a user's object to a `TypeError`.
 
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
@@ -44,7 +44,8 @@ pub(crate) fn text_of(entries: &Bound<'_, PyDict>) -> PyResult<String> {
     Ok(head.concat())
 }
 
-/// Dictionaries that were found in lists. Each dictionary has the key of its list.
+/// Dictionaries from the lists of a table, such as the wings of a vehicle. Each dictionary is paired with the
+/// key of its list.
 type Blocks<'py> = Vec<(String, Bound<'py, PyDict>)>;
 
 /// Separates the entries of a table that are lists of dictionaries, such as the wings of a vehicle, from all

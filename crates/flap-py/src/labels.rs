@@ -21,8 +21,8 @@ pub(crate) fn printed(unit: &str) -> String {
     labels::printed(unit)
 }
 
-/// Return the factor to a readable unit, and the readable unit for printing. `largest` is the largest of the values in
-/// `unit`.
+/// Return the factor that converts `unit` to a unit with readable numbers, and the printed name of the
+/// readable unit. `largest` is the largest value that is printed, in `unit`.
 #[pyfunction]
 #[pyo3(signature = (unit, largest, /))]
 pub(crate) fn scale(unit: &str, largest: f64) -> (f64, String) {
@@ -47,7 +47,8 @@ pub(crate) fn split_unit(name: &str) -> (&str, &'static str) {
     labels::split_unit(name)
 }
 
-/// Return the better direction of a column: 1 for a benefit such as lift, -1 for a cost such as power, 0 for neither.
+/// Return 1 if larger values of a column are better (such as lift), -1 if smaller values are better (such as
+/// power), and 0 otherwise.
 #[pyfunction]
 #[pyo3(signature = (name, /))]
 pub(crate) fn better(name: &str) -> i8 {

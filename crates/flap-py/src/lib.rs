@@ -2,8 +2,8 @@
 //!
 //! [`parameters`], [`design`] and [`solver`] convert Python values to the types of flap-core and flap-sweep. [`columns`]
 //! converts rows to NumPy columns. `python/flapwing/_flapwing.pyi` repeats the signatures, and the docstrings
-//! of public names, for editors and type checkers. Tests compare this file with the compiled module. The
-//! public functions with full docstrings are in the folder `python/flapwing`.
+//! of public names, for editors and type checkers. Tests compare `_flapwing.pyi` with the compiled module.
+//! The public functions with full docstrings are in the folder `python/flapwing`.
 
 mod begin;
 mod cluster;

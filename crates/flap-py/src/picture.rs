@@ -35,15 +35,15 @@ pub(crate) fn line_shades(count: usize) -> Option<Vec<f64>> {
     (0..count).map(|index| table::shade(index, count)).collect()
 }
 
-/// Return True if the range from `low` to `high` contains negative and positive numbers. A picture of such a
-/// range requires a diverging colour map with zero in the middle.
+/// Return True if the range from `low` to `high` contains negative and positive numbers. A picture of
+/// negative and positive numbers requires a diverging colour map with zero in the middle.
 #[pyfunction]
 #[pyo3(signature = (low, high, /))]
 pub(crate) fn is_signed(low: f64, high: f64) -> bool {
     table::is_signed(low, high)
 }
 
-/// Return True if an axis or a colour bar with these rising values is logarithmic.
+/// Return True if an axis or a colour bar with the rising values `values` is logarithmic.
 #[pyfunction]
 #[pyo3(signature = (values, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]
@@ -51,8 +51,8 @@ pub(crate) fn is_log(values: PyReadonlyArray1<'_, f64>) -> PyResult<bool> {
     Ok(scale::is_log(values.as_slice()?))
 }
 
-/// Return the default measure among `columns` that is not in `taken`. Return None if `columns` contains no
-/// such measure.
+/// Return the default measure of a role: a name in `columns` that is not in `taken`. Return None if `columns`
+/// contains no default measure.
 ///
 /// `role` is "response", "benefit", "cost" or "motion".
 #[pyfunction]

@@ -115,7 +115,8 @@ impl Chosen {
         }
     }
 
-    /// Returns the origin of the motions of the point (see [`sweep::meta`]).
+    /// Returns a dictionary with the versions, the model and the settings that produced the motions of the
+    /// point (see [`sweep::meta`]).
     pub(crate) fn meta<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
         sweep::meta(py, &self.plan, &sweep::options(None)?)
     }

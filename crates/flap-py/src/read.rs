@@ -50,7 +50,8 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf, ignore_damage: bool) -> PyResu
 /// The contents of a result file, with warnings for the user.
 struct Contents {
     columns: Columns,
-    /// The origin of the rows, if the file records the origin.
+    /// The plan of the rows, and the program that wrote the rows, if the file or its sidecar records the plan
+    /// and the program.
     origin: Option<Origin>,
     /// Units of the columns, if the file records the units.
     units: BTreeMap<String, String>,
@@ -59,7 +60,7 @@ struct Contents {
     is_verified: bool,
 }
 
-/// The plan of the rows, and the program that wrote the rows.
+/// The origin of rows: the plan, and the program that wrote the rows.
 struct Origin {
     plan: Plan,
     flap: String,
@@ -102,8 +103,9 @@ fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
     Ok(Contents { columns, origin, units, warnings, is_verified: notes.is_empty() })
 }
 
-/// Returns the origin from the sidecar, or from the results file if the sidecar is missing. Returns `None` if
-/// the columns of the origin differ from the columns of the file.
+/// Returns the plan of the rows and the program that wrote the rows. The plan is in the sidecar or, without a
+/// sidecar, in the results file. Returns `None` if the columns of the plan differ from the columns of the
+/// file.
 fn origin(sidecar: Option<Sidecar>, reader: &Reader) -> Option<Origin> {
     let fits = |origin: &Origin| Layout::of(&origin.plan).names().iter().eq(reader.names());
     sidecar.and_then(beside).filter(fits).or_else(|| inside(reader).filter(fits))
@@ -123,7 +125,7 @@ fn inside(reader: &Reader) -> Option<Origin> {
     Some(Origin { plan, flap, build, arithmetic })
 }
 
-/// Returns the columns of a file that records no origin of its rows. The cells of each column determine the
+/// Returns the columns of a file that contains no plan of its rows. The cells of each column determine the
 /// kind of the column.
 fn guess(reader: &mut Reader) -> std::io::Result<Vec<Column>> {
     let mut kinds: Vec<Option<CellKind>> = vec![None; reader.names().len()];

@@ -216,7 +216,8 @@ fn slopes<'py>(py: Python<'py>, plan: &Plan, gradient: &Gradient) -> PyResult<Bo
     Ok(dict)
 }
 
-/// Returns the origin of rows as a dictionary: versions, model, solver settings, and the text of the grid.
+/// Returns a dictionary that describes how rows were computed: versions, model, solver settings, and the text
+/// of the grid.
 pub(crate) fn meta<'py>(py: Python<'py>, plan: &Plan, options: &RunOptions) -> PyResult<Bound<'py, PyDict>> {
     let identity = Identity::of(plan, options);
     let solver = PyDict::new(py);

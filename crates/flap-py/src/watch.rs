@@ -7,8 +7,8 @@ use flap_core::simulate::Interrupt;
 use flap_sweep::run::Progress;
 use pyo3::prelude::*;
 
-/// The interval between checks. A user does not notice a delay of this length, and one check takes much less
-/// time.
+/// The interval between checks. A check for Ctrl-C takes much less time than this interval, and a user does
+/// not notice a delay of 50 ms.
 const INTERVAL: Duration = Duration::from_millis(50);
 
 /// Checks for signals and reports progress while work runs without the interpreter lock.

@@ -127,7 +127,7 @@ impl<R: Real> Constants<R> {
         self.lift_moment * coefficient * rate * rate
     }
 
-    /// Returns the aerodynamic torque (N·m) at a flap rate. This torque opposes the motion.
+    /// Returns the aerodynamic torque (N·m) at a flap rate. The aerodynamic torque opposes the motion.
     #[inline(always)]
     fn air_torque(&self, rate: R) -> R {
         let angle = self.attack(rate) * 2.04 + (-0.1714);

@@ -91,7 +91,7 @@ fn collapse(system: &System, response: &Response, frequencies: [f64; 4]) -> Clai
     )
 }
 
-/// Returns claims about the parts of the lift, each robot at the drive frequency of its preset.
+/// Returns claims about the parts of the lift of each robot, at the drive frequency of the robot's preset.
 pub(super) fn parts() -> Vec<Claim> {
     let [split_75, split_30] = [system_75(), system_30()].map(|system| {
         let point = super::bench().point(system.params.to_values());

@@ -8,13 +8,13 @@ use crate::claim::{Claim, about, closely, said};
 const IMPULSES: [f64; 3] = [0.3, 0.5, 0.8];
 /// Index of the impulse after which the first stroke peak of the large actuator is nearest to 20 deg.
 const MIDDLE: usize = 1;
-/// The damped sine is fitted to this number of periods of the first mode.
+/// Number of periods of the first mode, counted from the impulse, to which the damped sine is fitted.
 const WINDOW: u32 = 4;
 /// Longer fits, in periods of the first mode. These fits show how the fitted frequency depends on the number
 /// of periods.
 const LONGER: [u32; 2] = [5, 10];
 
-/// A published frequency (Hz), and the text with which the page shows this frequency.
+/// A published frequency (Hz), as a number and as the text that the page shows.
 pub(super) struct Published {
     shown: &'static str,
     frequency: f64,

@@ -89,7 +89,7 @@ fn of_size(name: &str, torque: f64, besides: &str) -> Claim {
     )
 }
 
-/// The torque is also computed for these fractions of a voltage difference.
+/// Fractions of a voltage difference. The roll torque is also computed for each fraction of the difference.
 const PARTS: [f64; 3] = [0.5, 0.625, 0.75];
 
 /// Returns settled motions with a difference between the drive voltages of the two wings: first the whole

@@ -46,8 +46,8 @@ class Column(NamedTuple):
         return values
 
     def flags(self) -> np.ndarray[Any, Any]:
-        """Return the flags of the column as an array of True and False. Unknown flags are False in the array. The
-        function `known` returns a mask that is False for unknown flags."""
+        """Return the flags of the column as an array of True and False. In the returned array, unknown flags are False.
+        The function `known` returns a mask that is False for unknown flags."""
         return np.equal(self.cells, 1)
 
     def known(self) -> np.ndarray[Any, Any]:

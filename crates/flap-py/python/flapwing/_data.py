@@ -141,8 +141,8 @@ class Data:
 
     def for_picture(self, names: Sequence[str], remedy: str = "") -> Data:
         """Return one row for each combination of values in the columns `names`. All axes that are not in `names` are
-        fixed at their middle values, as in `flap plot`. The text `remedy` is added at the end of the warning about the
-        fixed axes.
+        fixed at their middle values, as in `flap plot`. If an axis is fixed, a warning names the axis and ends with the
+        text `remedy`.
         """
         if self._has_one_row_for(names):
             return self
@@ -338,8 +338,8 @@ def joined(runs: Mapping[str, Data]) -> Data:
 
 
 def _plain(column: np.ndarray) -> np.ndarray:
-    """Return a column of words as a NumPy array of strings. Columns of this type from different tables can be
-    concatenated."""
+    """Return a column of words as a NumPy array of strings. NumPy strings make it possible to concatenate columns of
+    different tables."""
     return column.astype(str) if is_text(column) else column
 
 
@@ -420,7 +420,7 @@ def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
 
 
 def scattered(name: str) -> ValueError:
-    """Return the error for a parameter of a sample. The values of such a parameter form no axis, but the picture
+    """Return the error for a parameter of a sample. The values of a sampled parameter form no axis, but the picture
     requires an axis."""
     return ValueError(f"`{name}` is sampled, so its values form no axis; draw such designs with plot.scatter")
 

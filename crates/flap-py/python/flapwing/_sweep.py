@@ -76,8 +76,8 @@ def sweep(
         varied and derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`,
         `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. The entry ``columns`` of ``[output]`` chooses among the
         columns after `status`. A point without a periodic motion has a row with a status and without measures. If `out`
-        is given, the table reads the file when a column is used for the first time. If another sweep has replaced the
-        rows in the file before that time, ValueError is raised.
+        is given, the table reads the file when a column is used for the first time. If another sweep replaces the rows
+        in the file before the table has read the file, ValueError is raised.
 
     Raises
     ------

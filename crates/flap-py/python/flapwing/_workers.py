@@ -194,8 +194,8 @@ def _columns(parts: list[dict[str, Any]]) -> dict[str, Column]:
 
 
 def _column(parts: list[Column]) -> Column:
-    """Return one column that contains the cells of this column in all responses. The responses can have different lists
-    of words for a column of text."""
+    """Return the cells that a column has in all responses as one column. The responses can have different lists of
+    words for a column of text."""
     cells = [one.cells for one in parts]
     if parts[0].words is None:
         return parts[0]._replace(cells=np.concatenate(cells))

@@ -134,9 +134,9 @@ def wrench_map(
     ranges : dict of str to pair of float or str
         Smallest and largest value of each input: numbers in SI units, or text with units. The inputs are parameters of
         the vehicle, or the words ``"amplitude"``, ``"bias"``, ``"frequency"``, ``"second_harmonic"``,
-        ``"second_phase"`` and ``"third_harmonic"``. An input without a prefix in its name, such as ``"bias"``, changes
-        all wings. The input ``"bias_difference"`` is the bias of left wings minus the bias of right wings. The input
-        ``"left_bias"`` changes only the wing with the name `left`.
+        ``"second_phase"`` and ``"third_harmonic"``. If the name of an input has no prefix, such as ``"bias"``, the
+        input acts on all wings. The input ``"bias_difference"`` is the bias of left wings minus the bias of right
+        wings. The input ``"left_bias"`` changes only the wing with the name `left`.
     samples : int, optional
         Number of rows to compute. The default of `samples` is 400 rows.
     point : int, optional
