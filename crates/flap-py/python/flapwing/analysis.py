@@ -1,5 +1,5 @@
-"""Statistics, sensitivities, rank correlations and Pareto fronts of results. `flapwing.plot` draws pictures of
-distributions, sensitivities and Pareto fronts.
+"""Functions that compute statistics, sensitivities, rank correlations and Pareto fronts from results of flap.
+`flapwing.plot` draws pictures of distributions, sensitivities and Pareto fronts.
 
     >>> from flapwing import analysis
     >>> analysis.non_dominated([[1.0, 5.0], [2.0, 3.0], [2.0, 4.0]]).tolist()
@@ -55,8 +55,8 @@ class Sensitivity:
     base : float
         The value of the measure for the unchanged design, in the unit of the measure.
     low, high : float
-        The values of the measure at the lower and at the upper value of the parameter. A value is nan if the motion is
-        not periodic.
+        The values of the measure at the lower and at the upper value of the parameter. `low` or `high` is nan if the
+        motion at its value of the parameter is not periodic.
     unit, measure_unit : str
         The units of the parameter and of the measure.
     """
@@ -74,8 +74,8 @@ class Sensitivity:
 
     @property
     def swing(self) -> float:
-        """The larger of two absolute changes of the measure: at the lower value and at the upper value of the
-        parameter. `swing` is infinite if the motion is not periodic at either of these two values.
+        """The largest absolute change of the measure when the parameter changes from its value in the design to `below`
+        or to `above`. If the motion is periodic at neither of these two values, `swing` is infinite.
         """
         changes = [abs(each - self.base) for each in (self.low, self.high) if not math.isnan(each)]
         return max(changes, default=math.inf)
@@ -91,9 +91,9 @@ def sensitivities(
 ) -> list[Sensitivity]:
     """Compute the change of a measure when each parameter of a design is slightly decreased and slightly increased.
 
-    Two points are run for each parameter, and one point for the unchanged design. The remaining parameters do not
-    change, except parameters that are computed from the changed parameter. For example, the bias of a preset can depend
-    on the drive voltage.
+    flap simulates the unchanged design, and two further designs for each parameter: with a lower and with a higher
+    value of the parameter. Only one parameter is changed at a time, together with parameters that flap computes from
+    the changed parameter. For example, the bias of a preset can depend on the drive voltage.
 
     Parameters
     ----------
@@ -102,12 +102,14 @@ def sensitivities(
     measure : str
         A measure of the preset's model.
     parameters : mapping or iterable of str, optional
-        The parameters to change. In a mapping, each parameter has a relative change, or two values in SI units at which
-        the measure is computed, in any order. The default of `parameters` is all parameters whose value is a number
-        other than zero. Parameters that are computed by the model are left out. Parameters that cannot have the changed
-        values, such as whole numbers, are left out too.
+        The parameters to change. A mapping contains, for each parameter, a relative change such as ``0.1``, or a pair
+        of values in SI units. The measure is computed at both values of the pair, which can be in any order. The
+        default of `parameters` is all parameters whose value is a number other than zero. By default, flap leaves out
+        parameters whose values the model computes. By default, flap also leaves out a parameter if the changed values
+        are not allowed, for example because the parameter must be a whole number.
     change : float
-        The relative change of parameters for which `parameters` gives no change.
+        The relative change of each parameter for which the argument `parameters` contains no change and no pair of
+        values.
     **fixed
         Parameters of the design that differ from the preset: numbers in SI units, text with a unit, or options. You can
         also give solver settings, as for `flapwing.evaluate`.
@@ -120,8 +122,8 @@ def sensitivities(
     Raises
     ------
     ValueError
-        Raised if the design, the measure or a parameter is unknown. Raised if a change is zero. Raised if the motion of
-        the design is not periodic.
+        Raised if the design, the measure or a parameter is unknown. Raised if the change of a parameter is zero. Raised
+        if the motion of the unchanged design is not periodic.
     TypeError
         Raised if `parameters` is not a name, a list of names or a mapping.
 
@@ -164,7 +166,7 @@ def sensitivities(
 def _ranges(
     known: Mapping[str, Parameter], parameters: Any, change: float, fixed: Mapping[str, Any]
 ) -> dict[str, float | tuple[float, float]]:
-    """Return the relative change or the two values of each parameter."""
+    """Return a mapping from each parameter that is changed to its relative change, or to its lower and upper value."""
     if parameters is None:
         chosen: dict[str, Any] = {
             name: change
@@ -203,12 +205,12 @@ class RankCorrelation:
     parameter : str
         The parameter's name.
     correlation : float
-        The correlation, from -1 (a larger parameter always gives a smaller measure) to 1 (a larger parameter always
-        gives a larger measure).
+        The rank correlation, from -1 to 1. At 1, the measure always rises if the parameter rises, and at -1, the
+        measure always falls if the parameter rises.
     measure : str
         The measure's name.
     designs : int
-        The number of designs that have the measure.
+        The number of designs for which the measure has a finite value.
     """
 
     parameter: str
@@ -227,29 +229,29 @@ def rank_correlations(
 ) -> list[RankCorrelation]:
     """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
 
-    Equal values get the mean of their ranks. A parameter is left out if all designs have the same value of the
-    parameter. A parameter is also left out if an earlier parameter sorts the designs in the same or in the reverse
-    order.
+    If several designs have the same value, each of these values gets the mean of their ranks. A parameter is left out
+    if all designs have the same value of the parameter. A parameter is also left out if an earlier parameter ranks the
+    designs in the same order, or in exactly the opposite order.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of a sample, or of a grid.
     measure : str, optional
-        A column of numbers. The default of `measure` is the mean lift, or a different measure if the table has no mean
-        lift.
+        A column of numbers. The default of `measure` is the mean lift. If the table has no mean lift, flap chooses a
+        different measure.
     parameters : str or iterable of str, optional
-        The parameters to correlate, or any columns of numbers. The default of `parameters` is all parameters of the
-        table.
+        The parameters whose correlation with the measure is computed. You can also give other columns of numbers. The
+        default of `parameters` is all parameters of the table.
     where, **slices
-        The selection of rows, as for `flapwing.plot.response`, but with the designs at all values of the axes of a
-        grid. If a grid combines a sample with an axis that is not selected, only the rows at the middle value of this
-        axis are used.
+        Values of columns that select rows, as in `flapwing.plot.response`. If the table is from a grid without a
+        sample, the rows at all values of axes that you do not select are used. If the table combines a sample with axes
+        and you select no value of an axis, only the rows at the axis's middle value are used.
 
     Returns
     -------
     list of RankCorrelation
-        Correlations in falling order of absolute value.
+        The rank correlations of the parameters with the measure, in falling order of absolute value.
 
     Raises
     ------
@@ -285,12 +287,14 @@ def rank_correlations(
 
 
 def _names(argument: str, given: str | Iterable[str], example: str) -> list[str]:
-    """Return one name, or several names, as a list."""
+    """Return a list of names from an argument that contains one name or several names."""
     return [given] if isinstance(given, str) else name_list(argument, given, example) or []
 
 
 def _parameters(data: Data) -> list[str]:
-    """Return the parameters that are numbers, with sampled parameters first."""
+    """Return the names of the parameters whose values are numbers. The parameters of a sample precede the parameters on
+    the axes of a grid.
+    """
     names = [name for name in data.parameters() if not is_text(data[name])]
     return sorted(names, key=data.on_a_grid)
 
@@ -304,9 +308,9 @@ class Statistics:
     measure : str
         The measure's name.
     unit : str
-        The unit of all values, or ``""`` for a pure number.
+        The unit of the measure and of its statistics, or ``""`` if the measure is a pure number.
     designs : int
-        The number of designs that have the measure.
+        The number of designs for which the measure has a finite value.
     mean : float
         The mean of the measure.
     standard_deviation : float
@@ -318,7 +322,7 @@ class Statistics:
     smallest, largest : float
         The smallest and the largest value of the measure.
     percentiles : dict of float to float
-        The chosen percentiles of the measure. The keys of `percentiles` are percentages.
+        The chosen percentiles of the measure. The keys of the dictionary are percentages from 0 to 100.
     """
 
     measure: str
@@ -339,7 +343,7 @@ class Statistics:
 
 
 def percentages(given: Any) -> list[float]:
-    """Return percentages in rising order. Raise ValueError if a percentage is not from 0 to 100."""
+    """Return the given percentages in rising order. Raise ValueError if a percentage is not from 0 to 100."""
     with reading("percentiles", given, "it must be a list of percentages, such as [5, 50, 95]"):
         chosen = sorted(dict.fromkeys(given))
         outside = [percent for percent in chosen if not 0 <= percent <= 100]
@@ -349,8 +353,9 @@ def percentages(given: Any) -> list[float]:
 
 
 def statistics(measure: str, unit: str, values: Array, percentiles: Sequence[float]) -> Statistics:
-    """Return the statistics of the values of a measure. The array `values` contains only finite numbers, and at least
-    one number."""
+    """Return the statistics of the values of a measure. The array `values` must contain at least one number, and only
+    finite numbers.
+    """
     deviation = float(values.std(ddof=1)) if len(values) > 1 else math.nan
     return Statistics(
         measure=measure,
@@ -384,23 +389,23 @@ def describe(
     measures : str or iterable of str, optional
         Columns of numbers. The default of `measures` is all measures of the table.
     percentiles : iterable of float, optional
-        Percentages from 0 to 100. A percentile between the values of two designs is interpolated linearly, like a
-        percentile of ``flap describe``.
+        Percentages from 0 to 100. If a percentile is between the values of two designs, the percentile is interpolated
+        linearly, as in the command ``flap describe``.
     where, **slices
-        The selection of rows, as for `flapwing.plot.response`, but with the designs at all values of the axes of a
-        grid. If a grid combines a sample with an axis that is not selected, only the rows at the middle value of this
-        axis are used.
+        Values of columns that select rows, as in `flapwing.plot.response`. If the table is from a grid without a
+        sample, the rows at all values of axes that you do not select are used. If the table combines a sample with axes
+        and you select no value of an axis, only the rows at the axis's middle value are used.
 
     Returns
     -------
     dict of str to Statistics
-        The statistics of each measure, in the order of `measures`. If `measures` is not given, measures without a
+        The statistics of each measure, in the order of `measures`. If you do not give `measures`, measures that have no
         finite value are left out.
 
     Raises
     ------
     ValueError
-        Raised if a column or value is unknown. Raised if no design has a value of one of the measures. Raised if a
+        Raised if a column or value is unknown. Raised if no design has a value of a measure that you give. Raised if a
         percentage is not from 0 to 100.
     TypeError
         Raised if `measures` is not a name or a list of names.
@@ -429,8 +434,8 @@ def describe(
 
 
 def non_dominated(costs: Any) -> Mask:
-    """Return a mask of the Pareto front: the points that no other point dominates. Smaller costs are better in every
-    column.
+    """Return a mask of the Pareto front: the points that no other point dominates. In every column of `costs`, a
+    smaller cost is better.
 
     Point A dominates point B if no cost is larger for A than for B, and at least one cost is smaller for A. Equal
     points do not dominate each other.
@@ -438,8 +443,8 @@ def non_dominated(costs: Any) -> Mask:
     Parameters
     ----------
     costs : array_like, shape (n, k)
-        One row per point and one column per objective, k >= 1. If a larger value of an objective is better, change the
-        sign of the objective.
+        The costs, with one row for each of n points and one column for each of k objectives. If a larger value of an
+        objective is better, change the sign of the objective.
 
     Returns
     -------

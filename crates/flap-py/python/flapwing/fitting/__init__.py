@@ -1,24 +1,24 @@
 """Fits of parameters to readings, with the uncertainty of the parameters.
 
-`fit` takes `Readings` and `FreeParameter` objects, and returns a `Fit`. Most other classes are parts of a `Fit`, or
-results of `compare` and `select`.
+`fit` takes `Readings` and `FreeParameter` objects, and returns a `Fit`. Most other classes of the package describe
+parts of a `Fit`, or results of `compare` and `select`.
 
-- `_names`, `_cells`, `_noise`: names, cells and standard errors in columns of readings
-- `_data`, `_held`: readings in the units of the model, and readings that are not fitted
-- `_typical`, `_parameters`: typical sizes of terms, free parameters, and the coordinates of the search
-- `_model`, `_branches`: readings of the model at many sets of parameters, in batches, and branches of hysteresis
-- `_search`: least squares from several starts at the same time
-- `_intervals`: intervals by the profile likelihood, and combinations of parameters
-- `_structure`, `_discrepancy`, `_drift`: patterns in residuals, discrepancy of the model, and disagreement of data sets
+- `_names`, `_cells`, `_noise`: read the names, the cells and the standard errors in columns of readings
+- `_data`, `_held`: convert readings to the units of the model, and choose the readings that are held out of the fit
+- `_typical`, `_parameters`: bounds from typical sizes, free parameters, and the coordinates in which a fit searches
+- `_model`, `_branches`: compute the values that the model predicts for the readings, also on branches of hysteresis
+- `_search`: minimise the sum of squares by several searches at the same time
+- `_intervals`: confidence intervals by the profile likelihood, and combinations of parameters that the data determine
+- `_structure`, `_discrepancy`, `_drift`: patterns in residuals, discrepancy of the model, disagreement of data sets
 - `_spread`: scatter of a parameter between robots
-- `_assess`: errors of an estimate, from the tests of `_structure`, `_discrepancy` and `_drift`
+- `_assess`: standard errors of the estimates, from the tests of `_structure`, `_discrepancy` and `_drift`
 - `_solution`, `_result`: the estimates, the quality of the fit, and the predictions of the fit
-- `_points`, `_plan`: operating points of predictions, and the next readings
-- `_report`, `_device`: the result as text, and as a device
+- `_points`, `_plan`: operating points of predictions, and proposals for new readings
+- `_report`, `_device`: write the result of a fit as text, and as a device file
 - `_fit`: the function `fit`
-- `_criteria`: likelihood of readings, and information criteria
-- `_compare`, `_deciding`: comparison of fits of the same readings, and readings that decide between two fits
-- `_select`, `_subsets`: forward selection of free parameters, and fits of subsets of the parameters
+- `_criteria`: likelihood of the readings, and information criteria (AICc, BIC)
+- `_compare`, `_deciding`: comparison of fits of the same readings, and readings that show which of two fits is better
+- `_select`, `_subsets`: forward selection of free parameters, and fits with subsets of the free parameters
 """
 
 from __future__ import annotations

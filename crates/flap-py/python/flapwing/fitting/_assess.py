@@ -1,4 +1,4 @@
-"""The assessment of an estimate: errors, discrepancy of the model, patterns in the residuals, and outliers."""
+"""The assessment of a fit: standard errors, discrepancy of the model, patterns in the residuals, and outliers."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _OUTLYING, _OUTLYING_ROBUST = 4.0, 3.0
 
 
 def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answer: Answer) -> Assessment:
-    """Return the errors of an estimate, and the quality of the fit."""
+    """Return the standard errors of the estimated parameters, and the quality of the fit."""
     counted = target.used & np.isfinite(answer.values)
     difference = np.where(counted, answer.values - target.measured, np.nan)
     scaled = difference / target.sigma
@@ -91,11 +91,12 @@ def assess(model: Model, sets: list[DataSet], target: Target, found: Found, answ
 
 
 def _outlier_mask(measures: Mapping[str, Places], structured: set[str], scaled: Array, loss: str) -> Mask:
-    """Return a mask of the outliers.
+    """Return a mask that is True for readings that are outliers.
 
-    If a typical residual of a measure is larger than the standard error, the limit for outliers is multiplied by
+    If the typical residual of a measure is larger than the standard error, the limit for outliers is multiplied by
     (typical residual / standard error). The typical residual is computed from the median of the absolute residuals. If
-    the model lacks an effect, the typical residual is the root mean square.
+    a pattern in the residuals shows that the model lacks an effect, the typical residual is the root mean square of the
+    residuals.
     """
     limit = _OUTLYING if loss == "linear" else _OUTLYING_ROBUST
     mask = np.zeros(len(scaled), np.bool_)
@@ -108,7 +109,7 @@ def _outlier_mask(measures: Mapping[str, Places], structured: set[str], scaled: 
 
 
 def _outliers(sets: list[DataSet], scaled: Array, is_outlier: Mask) -> list[Outlier]:
-    """Return the outliers, with the largest residual first."""
+    """Return the readings that are outliers, with the largest residual first."""
     places = places_of(sets)
     found = []
     for reading in sorted(np.flatnonzero(is_outlier).tolist(), key=lambda reading: -abs(scaled[reading])):
@@ -118,13 +119,15 @@ def _outliers(sets: list[DataSet], scaled: Array, is_outlier: Mask) -> list[Outl
 
 
 def _branches(sets: list[DataSet]) -> Places:
-    """Return the branch of each reading as a number."""
+    """Return a number for each reading: 0 without a branch, 1 on the branch ``"up"``, 2 on the branch ``"down"``."""
     known = [None, "up", "down"]
     return np.concatenate([np.full(len(one) * len(one.measured), known.index(one.branch), np.intp) for one in sets])
 
 
 def _quantile(sigma_known: bool, freedom: float) -> float:
-    """Return the quantile for 95 % intervals."""
+    """Return the half width of a 95 % confidence interval in standard errors: a quantile of the normal distribution or
+    of Student's t distribution.
+    """
     from scipy.stats import norm, t
 
     return float(norm.ppf(0.975) if sigma_known else t.ppf(0.975, max(1, freedom)))
@@ -135,8 +138,9 @@ def sigma_known(sets: list[DataSet]) -> bool:
 
 
 def kinds(sets: list[DataSet]) -> dict[str, str]:
-    """Return the kind of the standard errors of each measure. If the kinds of the data sets differ, the result is the
-    last of these kinds in the order unknown, relative, absolute.
+    """Return the kind of the standard errors of each measure: ``"unknown"``, ``"relative"`` or ``"absolute"``. If the
+    kinds differ between data sets, ``"absolute"`` has priority over ``"relative"``, and ``"relative"`` over
+    ``"unknown"``.
     """
     order = ["unknown", "relative", "absolute"]
     found: dict[str, str] = {}

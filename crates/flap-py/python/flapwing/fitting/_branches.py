@@ -1,4 +1,6 @@
-"""Motions on branches of hysteresis, which are followed from point to point."""
+"""Computation of motions on branches of hysteresis: each simulation begins with the periodic state at the previous
+point of the branch.
+"""
 
 from __future__ import annotations
 
@@ -11,14 +13,16 @@ import numpy as np
 from .._table import Table
 from .._types import Array, Places
 
-#: The longest step along a branch, as a share of the followed parameter. Between more distant readings, points are
-#: added.
+#: The largest change of the parameter between two successive points of a branch, as a share of the parameter. If two
+#: successive readings are more distant, the branch gets additional points between these readings.
 _STEP = 0.02
 
 
 @dataclass(frozen=True)
 class Branch:
-    """The points of a branch, which are run in order while a parameter rises or falls."""
+    """The points of a branch of hysteresis. The points are simulated in the order in which a parameter rises or
+    falls.
+    """
 
     parameter: str
     falls: bool
@@ -33,11 +37,11 @@ def states_along(
     names: Sequence[str],
     run: Callable[..., Table],
 ) -> dict[str, Array] | None:
-    """Return the states in which motions on the branches begin. Return None if the data have no branches.
+    """Return the initial states of the motions on the branches of hysteresis. Return None if the data have no branches.
 
-    The columns in `columns` contain `times` copies of all points: one copy for each set of parameters. The
-    components of a state have the names `names`. All branches are followed at the same time: a batch has one point of
-    each branch.
+    The columns in `columns` contain `times` copies of all points: one copy for each set of parameters. `names` contains
+    the names of the components of a state. The branches are computed at the same time: each batch of simulations
+    contains the next point of every branch.
     """
     if not branches:
         return None
@@ -65,8 +69,8 @@ def states_along(
 
 
 def _curves(branch: Branch, columns: Mapping[str, Any], offset: int) -> list[list[tuple[int, str, float]]]:
-    """Return the curves of a branch. A curve contains all points that differ only in the followed parameter. For each
-    point, the curve has the row, the name of the followed parameter, and the value of the followed parameter.
+    """Return the curves of a branch. A curve contains the points that differ only in the parameter that rises or falls
+    along the branch. Each entry of a curve contains the row of a point, and the name and the value of the parameter.
     """
     groups: dict[tuple[Any, ...], list[int]] = {}
     for row in branch.rows + offset:
@@ -90,5 +94,5 @@ def _curves(branch: Branch, columns: Mapping[str, Any], offset: int) -> list[lis
 
 
 def taken(values: Any, places: list[int]) -> Any:
-    """Return the cells of a column at the indices `places`."""
+    """Return the cells of a column at the given indices."""
     return values[places].copy() if isinstance(values, np.ndarray) else [values[place] for place in places]

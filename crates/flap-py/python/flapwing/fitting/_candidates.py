@@ -1,4 +1,4 @@
-"""Parameters that `select` can free: uncertain parameters, and terms that the papers leave out."""
+"""Parameters that `select` can fit: uncertain parameters, and terms that the equations in the papers leave out."""
 
 from __future__ import annotations
 
@@ -35,13 +35,15 @@ _OF_FORCES = ("lift_term_1", "lift_term_2", "drag_term_0", "drag_term_1")
 
 
 def candidates(design: Design, /) -> dict[str, FreeParameter]:
-    """Return parameters that `select` can free: uncertain parameters of a design, and terms that the papers leave out.
+    """Return parameters that `select` can fit: uncertain parameters of a design, and terms that the equations in the
+    papers leave out.
 
     The uncertain parameters have the default bounds of `fit`: a third of the design's value, and three times the
-    design's value. The parameters in the list below have special bounds. In the bounds, ω is the angular drive
-    frequency, J is the wing's inertia about the stroke axis, κ is `hinge_stiffness`, and T is `transmission_ratio`. In
-    the bounds, E is half of the drive voltage per thickness of a plate. A damping that is not zero in the design has
-    default bounds.
+    design's value. The parameters in the list below have the bounds in the list instead of the default bounds. In the
+    list, ω is the angular drive frequency, J is the wing's inertia about the stroke axis, κ is `hinge_stiffness`, and T
+    is `transmission_ratio`. E is half of `drive_voltage_pp`, divided by the thickness of a piezoelectric plate. A
+    parameter in the list has the default bounds if the design's value is outside of the bounds in the list. A parameter
+    whose lower bound in the list is 0 also has the default bounds if the design's value is not zero.
 
     - `drag_coefficient_min`: 0.05 to 2
     - `stroke_damping`: 0 to J ω
@@ -56,9 +58,9 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     - `plate_ratio`: 0.5 to 1.5
     - `pressure_term_0`, `pressure_term_1`: -0.2 to 0.2
 
-    `lift_term_1`, `lift_term_2`, `drag_term_0` and `drag_term_1` are not among the candidates, because readings of
-    stroke and pitch can hardly distinguish these terms from other candidates. If your data contain lift, add the lift
-    and drag terms to the candidates. The default bounds of the lift and drag terms are -1 and 1.
+    The result does not contain `lift_term_1`, `lift_term_2`, `drag_term_0` and `drag_term_1`. Readings of stroke and
+    pitch can hardly distinguish these terms from other parameters of the result. If your data contain readings of lift,
+    add the lift and drag terms to the result. The default bounds of the lift and drag terms are -1 and 1.
 
     Parameters
     ----------
@@ -68,7 +70,8 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     Returns
     -------
     dict of str to FreeParameter
-        The parameters that `select` can free, with bounds in SI units. Remove or add entries before you call `select`.
+        The parameters that `select` can fit, with bounds in SI units. You can remove or add entries before you pass the
+        dictionary to `select`.
 
     Raises
     ------
@@ -96,5 +99,5 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
 
 
 def is_number(value: Any) -> TypeGuard[float]:
-    """Return True for a number, and False for other values such as a bool."""
+    """Return True if a value is a number, and False for a bool and for values of other types."""
     return isinstance(value, (int, float)) and not isinstance(value, bool)

@@ -1,4 +1,4 @@
-"""The cells of files and columns of readings, as numbers in the units of the model."""
+"""Functions that convert the cells of files and columns of readings to numbers in the units of the model."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _OTHERS = {";": "semicolons", "\t": "tabs"}
 
 
 def file_columns(path: str | os.PathLike[str]) -> dict[str, list[str]]:
-    """Return the columns of a CSV file, whose cells are text. Lines that begin with # are comments."""
+    """Return the columns of a CSV file as lists of text. In the file, lines that begin with # are comments."""
     name = os.fspath(path)
     try:
         with open(path, newline="", encoding="utf-8-sig") as file:
@@ -63,8 +63,8 @@ _NUMBER = re.compile(r"\s*[-+]?\.?\d")
 
 
 def parameter_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array | list[str]:
-    """Return the values in a column of a parameter: numbers in SI units, or names of options. Raise ValueError for
-    values out of range.
+    """Return the values in a column that contains a parameter: numbers in SI units, or names of options. Raise
+    ValueError if a value is outside of the parameter's range.
     """
 
     def value(cell: Any) -> float:
@@ -90,7 +90,7 @@ def parameter_cells(names: Names, place: str, header: str, meaning: Meaning, cel
 
 
 def measure_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Array:
-    """Return the values in a column of a measure, in the unit of the measure."""
+    """Return the readings in a column that contains a measure, in the unit of the measure."""
     unit = names.unit(meaning.name)
 
     def read(cell: str) -> float:
@@ -102,7 +102,9 @@ def measure_cells(names: Names, place: str, header: str, meaning: Meaning, cells
 
 
 def sigma_cells(names: Names, place: str, header: str, meaning: Meaning, cells: list[Any]) -> Noise:
-    """Return the standard errors in a column: in the unit of the measure, or in per cent of the model's value."""
+    """Return the standard errors in a column that contains standard errors of a measure. The standard errors are in the
+    unit of the measure, or are shares of the model's value.
+    """
     shares = [isinstance(cell, str) and cell.strip().endswith("%") for cell in cells]
     if all(shares) and not meaning.is_share:
         meaning = Meaning(meaning.kind, meaning.name, 0.01, True)

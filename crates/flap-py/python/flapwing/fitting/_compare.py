@@ -26,37 +26,38 @@ _CLEAR = 10.0
 
 @dataclass(frozen=True)
 class ComparedFit:
-    """The criteria of one fit in a comparison. Lower values of all criteria are better.
+    """The criteria of one fit in a comparison of fits. A lower value of a criterion is better.
 
     Attributes
     ----------
     name : str
         The name of the fit.
     parameters : int
-        Number of free parameters, or combinations of free parameters, that the readings and priors determine. Each
-        standard error that was estimated from the residuals counts as one parameter.
+        Number of free parameters, or combinations of free parameters, that the readings and priors determine. If
+        standard errors of a measure were estimated from the residuals, the estimate counts as one more parameter.
     chi_square : float
-        Chi-square: the sum of the squares of (residual / standard error) over all readings. The sum includes the
-        residuals of priors. If standard errors were estimated, chi-square contains no information about the fit.
+        Chi-square: the sum of the squares of (residual / standard error) over all readings. Chi-square includes the
+        residuals of the priors. If standard errors were estimated from the residuals, chi-square does not show the
+        quality of the fit.
     deviance : float
-        Minus two times the log likelihood of the compared readings, including the residuals of priors. Each unknown
-        standard error has the most likely value (concentrated likelihood).
+        Minus two times the log likelihood of the compared readings, including the residuals of priors. If a standard
+        error is unknown, the likelihood uses the most likely value of the standard error (concentrated likelihood).
     aicc, bic : float
         Akaike's information criterion with the correction for few readings, and the Bayesian information criterion.
     delta_aicc, delta_bic : float
-        Differences between the criteria of the fit and the lowest criteria of all fits.
+        The AICc and the BIC of the fit, minus the lowest AICc and the lowest BIC of all compared fits.
     weight : float
         Akaike weight: the probability of the fit among the compared fits.
     held_out_rms : dict of str to float
-        Root mean square of the prediction errors of each measure, in the unit of the measure. The mean is over the
-        held-out readings that have a settled motion in all compared fits. `held_out_rms` is empty if there are no such
-        readings.
+        Root mean square of the prediction errors of each measure, in the unit of the measure. `held_out_rms` uses only
+        held-out readings that have a settled motion in all compared fits. `held_out_rms` is empty if no held-out
+        reading has a settled motion in all compared fits.
     held_out_score : float
-        Mean logarithm of the predicted probability density of a reading that was not fitted, over the readings of
-        `held_out_rms`. A higher `held_out_score` is better. The density contains the errors of the parameters, the
-        discrepancy of the model, and the noise of the reading. `held_out_score` is nan if there are no such readings.
-        `held_out_score` is also nan if a prediction has no error, or depends on a parameter that the fitted readings do
-        not determine.
+        Mean logarithm of the probability density that the fit predicts for a held-out reading, over the readings of
+        `held_out_rms`. A higher `held_out_score` is better. The width of the probability density accounts for the
+        standard errors of the parameters, the discrepancy of the model, and the noise of the reading. `held_out_score`
+        is nan if `held_out_rms` is empty. `held_out_score` is also nan if the standard error of a prediction is
+        unknown, for example because the fitted readings do not determine a parameter.
     """
 
     name: str
@@ -80,7 +81,7 @@ class Comparison:
     fits : list of ComparedFit
         The criteria of the fits, with the lowest AICc first.
     readings : int
-        Number of compared readings: the readings that all fits use.
+        Number of readings that enter the comparison: the fitted readings that have a settled motion in all fits.
     left_out : int
         Number of readings that are not compared, because at least one of the fits has no settled motion at the reading.
     held_out_left_out : int
@@ -91,7 +92,7 @@ class Comparison:
     is_decided : bool
         True if the AICc of the second best fit is more than 2 above the lowest AICc.
     verdict : str
-        The result of the comparison in words.
+        The result of the comparison as text.
     """
 
     def __init__(self, sides: Sequence[Side]) -> None:
@@ -154,8 +155,8 @@ class Comparison:
         return lines
 
     def deciding_readings(self, count: int = 5) -> list[DecidingReading]:
-        """Return the readings whose log likelihoods in the two best fits differ most, in falling order of the
-        difference.
+        """Return the readings whose log likelihoods differ most between the two best fits, with the largest difference
+        first.
 
         Parameters
         ----------
@@ -165,7 +166,7 @@ class Comparison:
         Returns
         -------
         list of DecidingReading
-            At most `count` readings.
+            At most `count` readings, with the largest difference of the log likelihoods first.
 
         Raises
         ------
@@ -179,13 +180,15 @@ class Comparison:
     def next_measurements(
         self, candidates: Any, *, count: int = 5, measures: list[str] | None = None
     ) -> DecidingMeasurements:
-        """Return the operating points at which new readings would decide best between the two best fits.
+        """Return the operating points at which new readings would most clearly show which of the two best fits is
+        correct.
 
-        A reading decides between two fits if the predictions of the fits differ by many standard errors. The standard
-        error contains the noise of the reading and the errors of the fitted parameters. The choice of readings ignores
-        differences that disappear if the parameters are estimated again. Before each choice, the two fits are updated
-        with the readings that were chosen earlier. The updates of the fits use derivatives at the estimates. New
-        readings have the parameters, the branch and the standard errors of the first data set.
+        A reading shows which of two fits is correct if the predictions of the two fits differ by many standard errors.
+        Here, the standard error contains the noise of the reading and the standard errors of the fitted parameters. A
+        difference of the predictions does not count if it would disappear in new fits that include the reading. Before
+        each choice of a reading, flap updates the two fits with the readings that it has already chosen. To update a
+        fit, flap uses the derivatives at the estimated parameters. flap assumes that new readings have the parameters,
+        the branch and the standard errors of the first data set.
 
         Parameters
         ----------
@@ -193,22 +196,22 @@ class Comparison:
             Operating points that could be measured, as columns of parameters. You can leave out parameters that have
             the same value in all data sets.
         count : int
-            Number of readings to choose. A point can be chosen more than once.
+            Number of readings to choose. At one operating point, flap can choose one reading of each measure.
         measures : list of str, optional
-            The allowed measures of the new readings. The default of `measures` is the measures of the data.
+            The measures that the new readings can have. The default of `measures` is all measures in the data.
 
         Returns
         -------
         DecidingMeasurements
-            Operating points and measures, with the best reading first, and the expected difference of chi-square. A
-            difference of 10 in chi-square clearly supports one of the two fits.
+            The operating points and measures of the new readings, with the best reading first, and the expected
+            difference of chi-square. A difference of 10 in chi-square clearly supports one of the two fits.
 
         Raises
         ------
         ValueError
-            Raised if a name is unknown, or the data have no readings of a measure. Raised if `candidates` has a fitted
-            parameter, or lacks a parameter that has several values in the data. Raised if no operating point has a
-            settled motion with the parameters of both fits.
+            Raised if the name of a parameter or measure is unknown, or if the data have no readings of a measure.
+            Raised if `candidates` contains a fitted parameter, or lacks a parameter that has several values in the
+            data. Raised if no operating point has a settled motion with the parameters of both fits.
         """
         return deciding_measurements(self._sides[:2], candidates, _arguments.count("count", count), measures)
 
@@ -238,29 +241,30 @@ class Comparison:
 def compare(fits: Sequence[Fit], /, names: Sequence[str] | None = None) -> Comparison:
     """Compare fits of the same readings, to decide which model or which set of free parameters describes a robot.
 
-    The fits can differ in design, model, keywords and free parameters. The comparison uses AICc (Hurvich and Tsai
-    1989) and BIC (Schwarz 1978). A fit with more parameters is better only if the likelihood rises by more than noise
-    can explain. If standard errors are unknown, each fit uses the standard errors that are most likely for the fit.
+    The compared fits can differ in design, model, keyword arguments and free parameters. The comparison uses AICc
+    (Hurvich and Tsai 1989) and BIC (Schwarz 1978). A fit with more parameters is better only if its likelihood is
+    higher by more than noise can explain. If the standard errors of readings are unknown, each fit uses the standard
+    errors that maximise its likelihood.
 
     Parameters
     ----------
     fits : list of Fit
-        Two or more results of `fit`. All fits must have the same readings, standard errors and `hold_out`, and
-        ``loss="linear"``.
+        Two or more results of `fit`. All compared fits must have the same readings, the same standard errors and the
+        same `hold_out`. The loss function of all fits must be ``"linear"``.
     names : list of str, optional
         A name for each fit. The default of `names` is ``"fit 1"``, ``"fit 2"``, and so on.
 
     Returns
     -------
     Comparison
-        The criteria of all fits, the verdict, the readings that decide between the fits, and the next measurements that
-        would decide between the fits.
+        The criteria of all fits, and the verdict. The methods of `Comparison` return readings that show which fit is
+        better.
 
     Raises
     ------
     ValueError
-        Raised if `fits` has fewer than two entries. Raised if the fits have different readings, a robust loss,
-        parameters with a `spread`, or too few readings in common.
+        Raised if `fits` has fewer than two entries. Raised if the fits have different readings, a loss other than
+        ``"linear"``, or parameters with a `spread`. Raised if no reading has a settled motion in all fits.
     TypeError
         Raised if `fits` is not a list, or an entry of `fits` is not a `Fit`.
 
@@ -332,15 +336,17 @@ def _equal(one: Any, other: Any) -> bool:
 
 
 def _held_out_rms(side: Side, predicted: Mask) -> dict[str, float]:
-    """Return the root mean square of the prediction errors of each measure, over the readings in the mask
-    `predicted`."""
+    """Return the root mean square of the prediction errors of each measure. The mean is over the readings for which the
+    mask `predicted` is True.
+    """
     names = np.array(side.fit._model.outputs.measure)
     return _solution.rms_errors(names, side.values - all_readings(side.fit._sets), predicted)
 
 
 def _held_out_score(side: Side, predicted: Mask) -> float:
-    """Return the mean log density of the readings in the mask `predicted`. Return nan if the mask is empty, or if the
-    error of a prediction is unknown."""
+    """Return the mean log probability density of the readings for which the mask `predicted` is True. Return nan if the
+    mask selects no reading, or if the standard error of a prediction is unknown.
+    """
     variance = side.errors[predicted] ** 2
     if not predicted.any() or not np.isfinite(variance).all():
         return float("nan")

@@ -1,4 +1,4 @@
-"""The likelihood of readings in a fit, and information criteria."""
+"""The likelihood of the readings in a fit, and the information criteria AICc and BIC."""
 
 from __future__ import annotations
 
@@ -32,8 +32,8 @@ class Criteria:
 
 
 def criteria(sets: Sequence[DataSet], space: Space, x: Array, answer: Answer, counted: Mask) -> Criteria:
-    """Return the criteria of a fit that ends at the coordinates `x`, for the counted readings. `answer` has the model's
-    values of all readings.
+    """Return the information criteria of a fit whose estimate has the coordinates `x`. Only readings for which the mask
+    `counted` is True enter the criteria. `answer` contains the values that the model predicts for all readings.
     """
     values, measured = answer.values, all_readings(sets)
     log, sigma, estimated = _log_likelihoods(sets, values, counted)
@@ -53,9 +53,9 @@ def criteria(sets: Sequence[DataSet], space: Space, x: Array, answer: Answer, co
 def _log_likelihoods(sets: Sequence[DataSet], values: Array, counted: Mask) -> tuple[Array, Array, int]:
     """Return the log likelihood and the standard error of each reading, and the number of estimated standard errors.
 
-    The log likelihood is nan for readings that are not counted. An unknown standard error is estimated as the root mean
-    square of the residuals of the readings without a given standard error. If a motion does not settle, the model's
-    value of a reading is zero, as for a wing at rest.
+    The log likelihood is nan for readings at which the mask `counted` is False. An unknown standard error is the root
+    mean square of the residuals of those readings of the measure that have no given standard error. If the motion at a
+    reading does not settle, the model's value for the reading is zero, as for a wing at rest.
     """
     measured = all_readings(sets)
     error = np.where(np.isfinite(values), values, 0.0) - measured

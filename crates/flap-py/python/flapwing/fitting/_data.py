@@ -22,31 +22,33 @@ _ALLOWED = f"{_arguments.COLUMNS}, the path of a CSV file, or flapwing.Readings"
 
 
 class Readings:
-    """The readings of one experiment, for `fit`.
+    """The readings of one experiment, to which `flapwing.fit` fits parameters.
 
     Parameters
     ----------
     columns : dict, Table, DataFrame or path
         Columns of operating points and measures, or the path of a CSV file with these columns. The name of a column is
         the name of a parameter or a measure. Parameters are in SI units, and measures are in the unit at the end of the
-        measure's name. If a column has a different unit, write the unit in the name (``drive_frequency_khz``,
-        ``hinge_stiffness (uN*m/rad)``) or in each cell (``"0.12 kHz"``). The name ``frequency_hz`` means
-        ``drive_frequency``. A column with a measure's name and the suffix ``_sigma`` contains standard errors, in the
-        measure's unit or as ``"3 %"``.
+        measure's name. If a column has a different unit, write the unit in the name of the column
+        (``drive_frequency_khz``, ``hinge_stiffness (uN*m/rad)``) or in each cell (``"0.12 kHz"``). A column with the
+        name ``frequency_hz`` contains the parameter ``drive_frequency``, in hertz. A column with a measure's name and
+        the suffix ``_sigma`` contains standard errors, in the measure's unit or as ``"3 %"``.
     name : str, optional
-        The name of the data set in reports. The default of `name` is the name of the file, or the number of the data
-        set.
+        The name of the data set in the report of a fit. The default of `name` is the name of the CSV file, or text such
+        as ``"set 1"``.
     sigma : float, str or dict, optional
         The standard error of a reading: a number in the measure's unit, text such as ``"1 deg"``, or ``"3 %"`` of the
         model's value. A dictionary gives one standard error for each measure. By default, the standard error is
         estimated from the residuals.
     branch : {"up", "down"}, optional
-        For a design with hysteresis, the branch of the readings: ``"up"`` if `parameter` rose during the experiment,
-        ``"down"`` if `parameter` fell.
+        The branch of hysteresis on which the readings were taken: ``"up"`` if the value of `parameter` was increased
+        during the experiment, ``"down"`` if the value was decreased.
     parameter : str, optional
-        The parameter that rose or fell during the experiment. The default of `parameter` is ``"drive_frequency"``.
+        If you give `branch`, the parameter that was increased or decreased during the experiment. The default of
+        `parameter` is ``"drive_frequency"``.
     **params : float or str
-        Parameters of all operating points, such as ``drive_voltage_pp="160 V"``.
+        Parameters that have the same value at all operating points of the experiment, such as ``drive_voltage_pp="160
+        V"``.
 
     Examples
     --------
@@ -98,7 +100,9 @@ class Readings:
 
 @dataclass(frozen=True)
 class DataSet:
-    """The readings of one data set in the model's units, with one row per operating point."""
+    """The readings of one data set, converted to the units of the model. Each row of a data set is an operating
+    point.
+    """
 
     name: str
     #: Parameters of the operating points: numbers in SI units, or options.
@@ -115,17 +119,19 @@ class DataSet:
 
 
 def all_readings(sets: Sequence[DataSet]) -> Array:
-    """Return the readings of all data sets, in the order of `places_of`."""
+    """Return the readings of all data sets in one array, in the same order as `places_of`."""
     return np.concatenate([readings for one in sets for readings in one.measured.values()])
 
 
 def places_of(sets: Sequence[DataSet]) -> list[tuple[DataSet, str, int]]:
-    """Return the data set, the measure and the row (from 0) of each reading."""
+    """Return the data set, the measure and the row of each reading. The first row has the number 0."""
     return [(one, measure, row) for one in sets for measure in one.measured for row in range(len(one))]
 
 
 def are_unknown(sets: Sequence[DataSet], measure: str) -> Mask:
-    """Return a mask of all readings, which is True for readings of a measure without a given standard error."""
+    """Return a mask with one entry for each reading. An entry is True if the reading is of the given measure and has no
+    given standard error.
+    """
     return np.concatenate(
         [
             np.full(len(one), name == measure and one.noise[name].kind == "unknown")
@@ -136,10 +142,12 @@ def are_unknown(sets: Sequence[DataSet], measure: str) -> Mask:
 
 
 def estimating(sets: Sequence[DataSet], measure: str, counted: Mask) -> Mask:
-    """Return a mask of the readings from whose residuals the unknown standard error of a measure is estimated.
+    """Return a mask that selects readings of a measure. The unknown standard error of the measure is estimated from the
+    residuals of these readings.
 
-    These readings are the counted readings without a given standard error. If no such reading is counted, the
-    estimate is computed from all counted readings of the measure.
+    The result selects readings of the measure that have no given standard error and for which the mask `counted` is
+    True. If no reading fulfils both conditions, the result selects all readings of the measure for which `counted` is
+    True.
     """
     mine = counted & are_unknown(sets, measure)
     return mine if mine.any() else counted & np.array([name == measure for _, name, _ in places_of(sets)])
@@ -149,7 +157,7 @@ _READERS = {"parameter": parameter_cells, "measure": measure_cells, "sigma": sig
 
 
 def resolve(data: Any, names: Names, sigma: Any) -> list[DataSet]:
-    """Return the data sets of a call of `fit`."""
+    """Return the data sets that are described by the arguments `data` and `sigma` of `fit`."""
     listed = list(data) if isinstance(data, (list, tuple)) else [data]
     if not listed:
         raise ValueError("there are no data\ngive columns of readings, or a list of data sets")

@@ -1,4 +1,4 @@
-"""Readings that decide between two fits, and operating points at which new readings would decide."""
+"""Readings that show which of two fits is better, and operating points at which new readings would show this."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from ._search import finite_covariance
 
 @dataclass(frozen=True)
 class Side:
-    """One of the compared fits, with the values of the model at all readings."""
+    """One of the compared fits, with the values that its model predicts for all readings."""
 
     name: str
     fit: Fit
@@ -44,10 +44,10 @@ class DecidingReading:
     reading : float
         The reading, in the unit of the measure.
     values : tuple of float
-        The values that the best fit and the second best fit compute for the reading, in the unit of the measure.
+        The predictions of the reading by the best fit and by the second best fit, in the unit of the measure.
     difference : float
-        Log likelihood of the reading in the best fit minus log likelihood in the second best fit. A positive difference
-        supports the best fit.
+        The log likelihood of the reading in the best fit, minus the log likelihood of the reading in the second best
+        fit. If `difference` is positive, the reading supports the best fit.
     """
 
     data_set: str
@@ -62,7 +62,8 @@ class DecidingReading:
 
 @dataclass(frozen=True)
 class DecidingMeasurements:
-    """Operating points at which readings would decide between two fits, with the best point first.
+    """Operating points at which new readings would most clearly show which of two fits is correct, with the best point
+    first.
 
     Attributes
     ----------
@@ -73,14 +74,14 @@ class DecidingMeasurements:
     measures : list of str
         The measure of the new reading at each point.
     values : list of tuple of float
-        The predictions of the two fits at each point, in the unit of the measure.
+        The predictions of the best fit and of the second best fit at each point, in the unit of the measure.
     errors : list of float
-        The standard error of the difference of the two predictions at each point. The standard error contains the noise
-        of a reading and the errors of the parameters.
+        The standard error of the difference between the predictions of the two fits at each point. This standard error
+        contains the noise of a reading and the standard errors of the parameters.
     expected : list of float
-        The expected difference of the two fits in chi-square, if the model of one of the two fits is correct. The
-        expected difference counts the readings at a point and at all earlier points in the list. Both fits are updated
-        after each reading.
+        The expected difference between the chi-squares of the two fits, if the model of one of the two fits is correct.
+        The entry of a point is the sum over the readings at this point and at all earlier points of the list. The
+        computation updates both fits after each reading.
     """
 
     names: tuple[str, str]
@@ -102,7 +103,7 @@ class DecidingMeasurements:
 
 
 def deciding_readings(sides: Sequence[Side], count: int) -> list[DecidingReading]:
-    """Return the readings whose log likelihoods in two fits differ most, in falling order of the difference."""
+    """Return the readings whose log likelihoods differ most between two fits, with the largest difference first."""
     first, second = sides
     difference = first.criteria.log - second.criteria.log
     order = np.argsort(-np.abs(np.nan_to_num(difference)), kind="stable")[: min(count, np.isfinite(difference).sum())]
@@ -129,7 +130,7 @@ def deciding_readings(sides: Sequence[Side], count: int) -> list[DecidingReading
 def deciding_measurements(
     sides: Sequence[Side], candidates: Any, count: int, measures: Sequence[str] | None
 ) -> DecidingMeasurements:
-    """Return the operating points at which new readings would decide best between two fits."""
+    """Return the operating points at which new readings would most clearly show which of two fits is correct."""
     fits = [side.fit for side in sides]
     read = list(dict.fromkeys(fits[0]._model.outputs.measure))
     points = [fit._points("candidates", candidates) for fit in fits]
@@ -167,7 +168,9 @@ def deciding_measurements(
 
 
 def _sigma(side: Side, measure: str, values: Array) -> Array:
-    """Return the standard errors of new readings. Each unknown standard error has the most likely value."""
+    """Return the standard errors of new readings. If the standard error of a measure is unknown, the most likely value
+    is used.
+    """
     unknown = are_unknown(side.fit._sets, measure)
     likely = float(np.median(side.criteria.sigma[unknown])) if unknown.any() else 1.0
     return side.fit._noise(measure, {}, side.fit._sets[0].name).of(values, np.nan_to_num(values), likely)
@@ -176,15 +179,15 @@ def _sigma(side: Side, measure: str, values: Array) -> Array:
 def _decide(
     values: Sequence[Array], slopes: Sequence[Array], variance: Array, fits: Sequence[Fit], count: int
 ) -> tuple[list[int], list[float], list[float]]:
-    """Return the candidate points at which readings decide best between two fits. For each point, return the standard
-    error and the expected difference of chi-square.
+    """Return the candidate points at which readings most clearly show which of two fits is correct. For each chosen
+    point, also return the standard error and the expected difference of chi-square.
 
-    If the model of the first fit is correct, a reading raises the chi-square of the second fit. The rise of chi-square
-    is the squared difference of the two predictions, divided by the sum of two variances. The two variances are the
-    variance of the reading and the variance of the second fit's prediction. An update of the second fit with the
-    reading moves the prediction towards the first fit, so chi-square rises less. The expected difference of chi-square
-    is the mean of two rises. The two rises are computed for a correct model of the first fit and for a correct model of
-    the second fit.
+    If the model of the first fit is correct, a reading raises the chi-square of the second fit. Chi-square rises by the
+    squared difference of the two predictions, divided by the sum of two variances. The two variances are the variance
+    of the reading and the variance of the second fit's prediction. The variance of the prediction reduces the rise of
+    chi-square, because a new fit that includes the reading moves its prediction towards the reading. The rise of
+    chi-square is computed twice: for a correct model of the first fit, and for a correct model of the second fit. The
+    expected difference of chi-square is the mean of these two rises.
     """
     covariances = [finite_covariance(fit._information) for fit in fits]
     differences = [values[1] - values[0], values[0] - values[1]]

@@ -1,5 +1,6 @@
-"""The device file of a fit, with parameters, standard errors and correlations. You can use the device file as a
-design."""
+"""The device file of a fit, with parameters, standard errors and correlations. The device file describes a design,
+which you can pass to functions of flapwing.
+"""
 
 from __future__ import annotations
 
@@ -22,7 +23,9 @@ _FITTED = re.compile(r"(; |^)fitted to \d+ readings, .*", re.DOTALL)
 
 
 def write(fit: Solution, path: str | os.PathLike[str], data_set: str | None, overwrite: bool) -> None:
-    """Write the device of a fit to a file. Raise FileExistsError if the file exists and `overwrite` is False."""
+    """Write the device that a fit describes to a file. Raise FileExistsError if the file exists and `overwrite` is
+    False.
+    """
     text = text_of(fit, data_set)
     try:
         with open(path, "w" if overwrite else "x", encoding="utf-8") as file:
@@ -84,8 +87,8 @@ def text_of(fit: Solution, data_set: str | None) -> str:
 
 
 def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
-    """Return the label of each fitted parameter. If a parameter differs between data sets, return the label for the
-    chosen data set.
+    """Return a dictionary from the names of the fitted parameters to their labels in `Fit.estimates`. If each data set
+    has a separate value of a parameter, the label is the label for the chosen data set.
     """
     place = None if data_set is None else fit._place(data_set)
     labels = {}
@@ -99,8 +102,8 @@ def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
 
 
 def _derived(fit: Solution, labels: dict[str, str]) -> dict[str, float]:
-    """Return the derived parameters of the design, at the fitted values. Raise ValueError if a derived parameter
-    differs between the readings.
+    """Return the derived parameters of the design, computed from the fitted parameters. Raise ValueError if a derived
+    parameter has different values at different readings.
     """
     model = fit._model
     names = model.names.grid.varied

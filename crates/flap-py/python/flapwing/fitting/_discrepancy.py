@@ -1,4 +1,4 @@
-"""The discrepancy of a model: the difference between model and robot beyond the noise of the readings."""
+"""The discrepancy of a model: the part of the difference between model and readings that is not noise."""
 
 from __future__ import annotations
 
@@ -27,19 +27,18 @@ _CHUNK = 512
 
 @dataclass(frozen=True)
 class Discrepancy:
-    """The discrepancy of a model for a measure: the difference between model and robot beyond the noise of the
-    readings.
+    """The discrepancy of a model for a measure: the part of the difference between model and readings that is not
+    noise.
 
     Attributes
     ----------
     measure, unit : str
         The measure, and the unit of `size`: the unit of the measure, or ``"%"`` for per cent of the model's value.
     size : float
-        The standard deviation of the discrepancy at a random operating point of the data.
+        The standard deviation of the discrepancy over the operating points of the data.
     readings : float
-        The number of readings with independent discrepancies that contain as much information as the readings of the
-        data. Neighbouring points have similar discrepancies, so `readings` is less than the number of readings in the
-        data.
+        The effective number of independent readings. Readings at neighbouring points have similar discrepancies, so the
+        effective number is smaller than the number of readings in the data.
     """
 
     measure: str
@@ -50,8 +49,7 @@ class Discrepancy:
 
 @dataclass(frozen=True)
 class Discrepancies:
-    """The discrepancy of all measures, and the effect of the discrepancy on the covariance of the search
-    coordinates."""
+    """The discrepancies of all measures, and the covariance of the search coordinates with these discrepancies."""
 
     listed: list[Discrepancy]
     #: The discrepancy of each measure, in the form of standard errors.
@@ -74,19 +72,20 @@ def of_residuals(
     jacobian: Array,
     inverse: Array,
 ) -> Discrepancies:
-    """Return the discrepancy that explains the squares of the residuals.
+    """Return the discrepancy of each measure, estimated such that noise and discrepancy together explain the squares of
+    the residuals.
 
     For readings i and j of a measure, the covariance of the discrepancies is size² · s_i · s_j · ρ_ij. In this formula,
     s is the model's value if standard errors are in per cent, and 1 if not. The correlation ρ of two points falls with
-    the distance between the points. The distance of two points is counted in ranks along each parameter. The decline of
-    the correlation ρ with the distance is computed from the products of neighbouring residuals. The expected sum of
-    squares accounts for the part of noise and discrepancy that the fitted parameters follow, as in a restricted maximum
-    likelihood.
+    the distance between the points. Along each parameter, the distance of two points is the difference between the
+    ranks of their values. The products of the residuals of neighbouring points determine how fast the correlation ρ
+    falls with the distance. The fitted parameters absorb a part of the noise and of the discrepancy. The expected sum
+    of squares accounts for the absorbed part, as in a restricted maximum likelihood.
 
-    `measures` has the fitted readings of each measure, and `structured` has the measures whose residuals have a
-    pattern. The standard errors of measures of the kind ``"unknown"`` are estimated from the residuals, so they contain
-    the discrepancy. If the residuals of a measure of the kind ``"unknown"`` have a pattern, the whole standard error
-    counts as discrepancy. `inverse` is the covariance of the coordinates without discrepancy.
+    `measures` contains the indices of the fitted readings of each measure, and `structured` contains the measures whose
+    residuals have a pattern. If standard errors have the kind ``"unknown"``, they are estimated from the residuals, so
+    the standard errors contain the discrepancy. If such residuals have a pattern, the whole standard error counts as
+    discrepancy. `inverse` is the covariance that the search coordinates have without a discrepancy.
     """
     base = np.ones(len(scaled))
     spread = np.zeros_like(inverse)
@@ -133,8 +132,9 @@ def of_residuals(
 
 
 def _likeness(layout: Layout, chosen: Places, scaled: Array, shape: Array) -> dict[str, float]:
-    """Return the mean product of neighbouring residuals along each parameter, divided by the product of the neighbours'
-    values in `shape`."""
+    """Return the squared discrepancy that the products of neighbouring residuals along each parameter indicate. The sum
+    of these products is divided by the sum of the products of the neighbouring values in `shape`.
+    """
     whole = np.zeros(len(scaled))
     whole[chosen] = shape
     found = {}
@@ -148,8 +148,8 @@ def _likeness(layout: Layout, chosen: Places, scaled: Array, shape: Array) -> di
 def _correlated(
     layout: Layout, chosen: Places, declines: Mapping[str, float], shape: Array, slopes: Array
 ) -> tuple[Array, float]:
-    """Return a product and a sum of the discrepancy's correlation matrix, which is weighted by `shape`. The product is
-    the weighted matrix, multiplied by `slopes` from both sides. The sum contains all elements of the weighted matrix.
+    """Return the matrix ``slopes.T @ C @ slopes``, and the sum of all elements of C. The matrix C is the correlation
+    matrix of the discrepancies, whose rows and columns are multiplied by `shape`.
     """
     weighted = shape[:, np.newaxis] * slopes
     ranks = {name: layout.ranks[name][chosen] for name in layout.varied}

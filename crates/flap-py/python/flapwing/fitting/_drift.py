@@ -14,13 +14,13 @@ _SIGNIFICANT = 1e-3
 
 
 def between_sets(space: Space, of_set: Places, scaled: Array, jacobian: Array) -> str:
-    """Return the shared parameter that explains a disagreement between data sets best. Return an empty text if the data
-    sets agree.
+    """Return the name of the parameter with one value for all data sets that best explains a disagreement between the
+    data sets. Return an empty text if the data sets agree.
 
-    A parameter explains the disagreement if separate values for the data sets significantly reduce the sum of squares
-    of the residuals (F test). The residuals are linear in the parameters, with derivatives at the estimate. `scaled`
-    has the residuals in standard errors, `jacobian` has the derivatives of `scaled`, and `of_set` has the data set of
-    each reading.
+    A parameter explains the disagreement if a separate value for each data set significantly reduces the sum of squares
+    of the residuals (F test). The test approximates the residuals by linear functions of the parameters, with the
+    derivatives at the estimate. `scaled` contains the residuals in standard errors, and `jacobian` contains the
+    derivatives of `scaled`. `of_set` contains the index of the data set of each reading.
     """
     from scipy.stats import f
 
@@ -41,7 +41,9 @@ def between_sets(space: Space, of_set: Places, scaled: Array, jacobian: Array) -
 
 
 def _rest(columns: Array, values: Array) -> float:
-    """Return the sum of squares that remains after the best linear combination of columns is subtracted."""
+    """Return the sum of squares of `values` that remains after a least-squares fit by a linear combination of the
+    columns.
+    """
     lengths = np.linalg.norm(columns, axis=0)
     used = columns[:, lengths > 0.0] / lengths[lengths > 0.0]
     rest = values - used @ np.linalg.lstsq(used, values, rcond=1e-6)[0]

@@ -43,38 +43,40 @@ def fit(
 ) -> Fit:
     """Fit parameters of a design to readings, and compute the uncertainty of these parameters.
 
-    The method is nonlinear least squares (`scipy.optimize.least_squares`) from several starts, with derivatives of the
-    settled motions. `fit` requires SciPy.
+    `fit` uses nonlinear least squares (`scipy.optimize.least_squares`) from several starting points, with derivatives
+    of the settled motions. `fit` requires SciPy.
 
     Parameters
     ----------
     design : str, path, dict or Grid
         A preset, a device, or a grid without axes.
     data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
-        One or several data sets with parameters of the operating points and with measures (see `Readings`).
+        One or several data sets. A data set contains the parameters of operating points and the readings of measures at
+        these points (see `Readings`).
     free : list of str, or dict
-        The parameters to fit. In a dictionary, each parameter has bounds ``(low, high)``, a `FreeParameter`, or None.
-        Bounds are numbers in SI units or text with units; None stands for the default bounds. The default bounds are a
-        third of the design's value and three times the design's value. If the parameter is zero in the design, the
-        bounds are described in `FreeParameter`.
+        The parameters to fit. In a dictionary, the value for a parameter is a pair of bounds ``(low, high)``, a
+        `FreeParameter`, or None. Bounds are numbers in SI units or text with units; None stands for the default bounds.
+        The default bounds are a third of the design's value and three times the design's value. The page of
+        `FreeParameter` describes the default bounds of a parameter whose value in the design is zero.
     sigma : float, str or dict, optional
-        The standard error of readings that have no column of standard errors. `sigma` is a number in the measure's
-        unit, text such as ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one standard error for
-        each measure. By default, the standard error is estimated from the residuals.
+        The standard error of those readings for which the data have no column of standard errors. `sigma` is a number
+        in the measure's unit, text such as ``"1 deg"``, or ``"3 %"`` of the model's value. A dictionary gives one
+        standard error for each measure. By default, the standard error is estimated from the residuals.
     loss : {"linear", "soft_l1", "huber", "cauchy", "arctan"}
-        The loss function of the readings. All loss functions except ``"linear"`` reduce the weight of outliers. With
-        these loss functions, errors and intervals contain the variance of an M-estimator. Priors and spreads always
-        have the linear loss.
+        The loss function of the readings. All loss functions except ``"linear"`` reduce the weight of outliers. If the
+        loss function is not ``"linear"``, standard errors and confidence intervals are computed as for an M-estimator.
+        The loss function of priors and spreads is always ``"linear"``.
     starts : int
         Number of searches. The first search starts at the design's values, and the remaining searches start at the best
         points of a Sobol' sequence.
     seed : int
-        Seed of the Sobol' sequence and of a random `hold_out`.
+        Seed of the random numbers in the Sobol' sequence of starting points, and in the random choice of held-out
+        readings.
     hold_out : float, str, dict, or list of str and dict, optional
         Readings that are predicted instead of fitted: a fraction of all readings, names of data sets, or ranges of
-        parameters. A range such as ``{"drive_frequency": (110, 120)}`` is in SI units, or is text with units. An end of
-        None means that the range is open at this end. The model computes the held-out readings only once, after the
-        search.
+        parameters. The ends of a range such as ``{"drive_frequency": (110, 120)}`` are numbers in SI units, text with
+        units, or None. If an end is None, the range has no limit at this end. Operating points with only held-out
+        readings are simulated once, after the search, unless the points are on a branch of hysteresis.
     profile : bool
         If True, confidence intervals are computed by the profile likelihood. If False, confidence intervals are
         computed from the derivatives at the estimate, which is faster than the profile likelihood.
@@ -82,24 +84,24 @@ def fit(
         Number of threads, 1 or more. The default of `threads` is one thread per core. The number of threads does not
         change the results.
     progress : bool or function, optional
-        If True, the number of computed points is shown. A progress function is called with two arguments, which are
-        both the number of computed points.
+        If True, `fit` shows the number of computed points. If you give a function, `fit` calls it with two arguments,
+        which are both the number of computed points.
     **keywords : float or str
-        Parameters of all data, and solver settings. If a data set has its own values of a parameter, these values
-        replace the keyword for this data set.
+        Parameters that have the same value in all data sets, and solver settings. If a data set has a column of a
+        parameter, the column replaces the keyword argument for this data set.
 
     Returns
     -------
     Fit
         Estimates, standard errors and confidence intervals of the parameters, and the quality of the fit. Print the
-        `Fit` to read the report. If the model disagrees with the data, errors and intervals contain the discrepancy of
-        the model (`Fit.discrepancy`).
+        `Fit` to read the report. If the model disagrees with the data, standard errors and intervals include the
+        discrepancy of the model (`Fit.discrepancy`).
 
     Raises
     ------
     ValueError
-        Raised if the data have no readings, unknown columns or units, cells that are not numbers, or fewer readings
-        than free parameters. Raised if bounds are in the wrong order, or a parameter is unknown.
+        Raised if the data have no readings, unknown columns or units, cells that are not numbers, or too few readings.
+        Raised if the upper bound of a parameter is not above the lower bound, or if a parameter is unknown.
     TypeError
         Raised if an argument has the wrong type.
     ImportError
@@ -140,8 +142,8 @@ def finish(
     seed: int,
     begun: float,
 ) -> Fit:
-    """Return the result of a fit. `ends` are the points at which the searches ended, with the best point first. The fit
-    began at the time `begun`.
+    """Return the result of a fit. `ends` contains the points at which the searches ended, with the best point first.
+    `begun` is the time in seconds at which the fit began.
     """
     target, found, answer = _settle(model, sets, target, ends[0], guesses)
     readings = int((target.used & np.isfinite(answer.values)).sum()) + len(model.space.prior(found.x)[0])
@@ -194,8 +196,8 @@ def finish(
 def _settle(
     model: Model, sets: list[DataSet], target: Target, best: Found, guesses: dict[str, float]
 ) -> tuple[Target, Found, Answer]:
-    """Run the last search of a fit. The search is repeated until the standard errors and spreads before and after the
-    search agree. Readings without a settled motion are left out.
+    """Run the last search of a fit. The search is repeated until it hardly changes the standard errors and spreads that
+    depend on the fit. Readings without a settled motion are left out.
     """
     found = _search.polish(model, target, best.x)
     for _ in range(_ROUNDS):
@@ -258,13 +260,13 @@ def _unsettled(sets: list[DataSet], answer: Answer, held: Mask) -> list[Unsettle
 
 
 def _lost(answer: Answer, held: Mask) -> Places:
-    """Return the readings whose operating points have no settled motion."""
+    """Return the indices of fitted readings at whose operating points the motion does not settle."""
     return np.flatnonzero(~np.isfinite(answer.values) & ~held)
 
 
 def _too_few(model: Model, sets: list[DataSet], found: Found, answer: Answer, held: Mask) -> str:
-    """Return the error message for too few readings with a settled motion. If the points of readings are impossible,
-    the error message has the reason.
+    """Return the error message for too few readings with a settled motion. If parameters at an operating point are
+    invalid, the error message contains the reason.
     """
     lost = _unsettled(sets, answer, held)
     message = "too few readings have a settled motion at the best parameters found: "
@@ -295,8 +297,8 @@ def check_options(loss: Any, starts: Any, seed: Any) -> None:
 
 
 def _check_count(model: Model, held: Mask) -> None:
-    """Raise ValueError if there are too few readings. A parameter of a data set that is held out does not count, unless
-    the parameter has a prior.
+    """Raise ValueError if the number of readings and priors is not larger than the number of free parameters. A
+    separate parameter of a held-out data set does not count as a free parameter, unless it has a prior.
     """
     readings, fitted = int((~held).sum()), [None, *model.outputs.of_set[~held]]
     priors = model.space.prior(np.zeros(len(model.space)))[1]

@@ -1,4 +1,4 @@
-"""The readings that a fit predicts instead of fitting."""
+"""Held-out readings: readings that do not enter the fit, but are predicted by the fit."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _HOLD_OUT = (
 
 
 def held_out_readings(hold_out: Any, sets: Sequence[DataSet], seed: int, count: int, names: Names) -> Mask:
-    """Return a mask, which is True for readings that are predicted instead of fitted."""
+    """Return a mask that is True for held-out readings, which the fit predicts, and False for fitted readings."""
     held = np.zeros(count, np.bool_)
     if hold_out is None:
         return held
@@ -62,8 +62,9 @@ def _in_ranges(ranges: Mapping[Any, Any], sets: Sequence[DataSet], names: Names)
 
 
 def _range(name: Any, given: Any, names: Names) -> tuple[float, float]:
-    """Return the smallest and the largest value of a range, in SI units. An end of None means that the range is open at
-    this end."""
+    """Return the smallest and the largest value of a range, in SI units. If an end is None, the range has no limit at
+    this end.
+    """
     place = f"hold_out[{name!r}]"
     if not isinstance(given, (tuple, list)) or len(given) != 2:
         raise TypeError(

@@ -1,5 +1,5 @@
-"""Intervals by the profile likelihood, and combinations of parameters that the data determine well, badly or not at
-all.
+"""Confidence intervals of parameters by the profile likelihood, and combinations of parameters that the data determine
+well, badly or not at all.
 """
 
 from __future__ import annotations
@@ -34,14 +34,15 @@ class Profile:
     value : array
         Values of the parameter in SI units, in rising order.
     rise : array
-        The signed square root of the increase of the cost at each value, in standard errors of the parameter. The
-        standard errors contain the discrepancy of the model and the variance of a robust loss. `rise` is 0 at the
-        estimate, and nearly a linear function of the parameter if the data determine the parameter well.
+        The signed square root of the increase of chi-square at each value, in standard errors of the parameter. If
+        `loss` is not ``"linear"``, the sum of the losses replaces chi-square. These standard errors include the
+        discrepancy of the model and the variance of a robust loss. `rise` is 0 at the estimate. If the data determine
+        the parameter well, `rise` is nearly a linear function of the parameter.
     low, high : float
         Lower and upper end of the parameter's 95 % interval, in SI units.
     open_below, open_above : bool
-        True if the interval extends to the lower or upper bound of the parameter. If the interval extends to a bound,
-        the data give no limit for the parameter on the side of the bound.
+        True if the interval extends to the lower or upper bound of the parameter. The data then give no lower or upper
+        limit for the parameter.
     """
 
     value: Array
@@ -53,30 +54,30 @@ class Profile:
 
     @property
     def is_flat(self) -> bool:
-        """True if the data give no limit for the parameter on at least one side."""
+        """True if the data give no lower limit or no upper limit for the parameter."""
         return self.open_below or self.open_above
 
 
 @dataclass(frozen=True)
 class _Side:
-    """One side of a profile."""
+    """One half of a profile likelihood: the part below or above the estimate."""
 
     #: The values of the fixed coordinate, and the heights of the profile at these values.
     x: list[float]
     height: list[float]
-    #: The value at which the profile has the required height, or the bound of the parameter.
+    #: The coordinate at which the profile has the required height, or the bound of the coordinate.
     end: float
     #: True if the profile reached the bound of the parameter before the required height.
     is_open: bool
-    #: The best fit that is better than the estimate, if the search found one.
+    #: The best of the fits along the profile that are better than the estimate; None if no fit is better.
     best: Found | None
 
 
 @dataclass(frozen=True)
 class _ProfileSearch:
-    """The fit from which profiles begin: readings, estimate, and the inverse of the curvature of the cost. Profiles
-    end at a distance of `quantile` standard errors from the estimate. The standard errors contain the discrepancy of
-    the model and the variance of a robust loss.
+    """A finished fit whose profile likelihoods are computed: readings, estimate, and `covariance`, the inverse of the
+    curvature of the cost. A profile ends where its height is `quantile` standard errors. These standard errors include
+    the discrepancy of the model and the variance of a robust loss.
     """
 
     space: Space
@@ -87,7 +88,9 @@ class _ProfileSearch:
     factors: Array
 
     def side(self, ask: Ask, fixed: int, way: float) -> _Side:
-        """Return the profile on one side of the estimate, up to the required height or the bound of the parameter."""
+        """Return the half of a profile below or above the estimate, up to the required height or to the bound of the
+        parameter.
+        """
         height = self.quantile * float(self.factors[fixed])
         here = self.found.x[fixed]
         end = self.space.high[fixed] if way > 0 else self.space.low[fixed]
@@ -139,7 +142,9 @@ class _ProfileSearch:
         return _Side(values, heights, float(reached), is_open, best)
 
     def _minimum(self, ask: Ask, begin: Array, fixed: int) -> tuple[Found, float]:
-        """Return the minimum of the cost near `begin` with one fixed coordinate, and the height of the profile."""
+        """Return the minimum of the cost near `begin` at a fixed value of one coordinate, and the height of the profile
+        there.
+        """
         # The cost must be known to a fraction of its rise.
         tolerance = tolerance_of(0.02, self.found.cost)
         ended = minimise(ask, self.space, self.target, begin, fixed, steps=6, tolerance=tolerance)
@@ -149,9 +154,9 @@ class _ProfileSearch:
 def profiles(
     model: Model, target: Target, found: Found, covariance: Array, quantile: float, factors: Array
 ) -> tuple[list[Profile], Found | None]:
-    """Return the profiles of all coordinates up to `quantile` standard errors. If a search for a profile finds a better
-    fit than the estimate, return the better fit too. `factors` has the standard error of each coordinate, divided by
-    the standard error that belongs to the curvature of the cost.
+    """Return the profile likelihoods of all free parameters, up to a height of `quantile` standard errors. If the
+    computation of a profile finds a better fit than the estimate, also return the better fit. `factors` contains the
+    standard error of each coordinate, divided by the standard error that follows from the curvature of the cost.
     """
     space = model.space
     search = _ProfileSearch(space, target, found, covariance, quantile, factors)
@@ -193,14 +198,14 @@ _SHARE = 0.05
 
 
 def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> list[str]:
-    """Return one sentence for each combined change of parameters that affects no reading at any values of the
-    parameters. `at_estimate` has the derivatives of the residuals at the estimate.
+    """Return a sentence for each combination of changes of parameters that changes no reading, whatever the values of
+    the parameters are. `at_estimate` contains the derivatives of the residuals at the estimate.
 
     The derivatives of the readings are computed at several random sets of parameters. If the derivatives have a null
-    space at each set, no readings of the same measures at the same points can distinguish the parameters. If only a
-    product of parameters affects the readings, the null space in logarithms of the parameters is the same at all sets.
-    If only a sum of parameters affects the readings, the null space in the parameters is the same at all sets. The
-    common null space of all sets is computed from one matrix, in which the derivatives at all sets are stacked.
+    space at each set, no readings of the same measures at the same points can determine all parameters. If only a
+    product of parameters affects the readings, all sets have the same null space in the logarithms of the parameters.
+    If only a sum of parameters affects the readings, all sets have the same null space in the parameters themselves. To
+    find the null space that all sets have in common, the derivatives at all sets are stacked in one matrix.
     """
     space = model.space
     # A change that affects no reading at any values of the parameters affects none at the estimate.
@@ -236,21 +241,22 @@ def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> l
 
 
 def _idle(space: Space, jacobian: Array) -> tuple[list[str], Places]:
-    """Return the labels of the parameters without an effect on any reading, and the places of the parameters with an
-    effect."""
+    """Return the labels of the parameters that affect no reading, and the indices of the parameters that affect a
+    reading.
+    """
     is_idle = np.linalg.norm(jacobian, axis=0) * (space.high - space.low) < _EFFECT
     return [label for label, none in zip(space.labels, is_idle) if none], np.flatnonzero(~is_idle)
 
 
 def _null_space(jacobian: Array) -> Array:
-    """Return the directions in parameter space along which no reading changes."""
+    """Return the directions in the space of the coordinates along which no reading changes."""
     lengths, _, directions, known = decompose(jacobian)
     return np.asarray(directions[~known] / lengths)
 
 
 def _sparse(directions: Array) -> list[Array]:
-    """Return combinations of directions in parameter space. Each combination has few parameters, and is found by
-    elimination.
+    """Return linear combinations of the given directions in which few parameters change. The combinations are found by
+    Gaussian elimination.
     """
     rows = [row / np.abs(row).max() for row in directions]
     for place in range(len(rows)):
@@ -263,9 +269,7 @@ def _sparse(directions: Array) -> list[Array]:
 
 
 def _in_words(space: Space, direction: Array) -> str:
-    """Return a direction in parameter space as text: the parameters that change together, scaled so that the largest
-    change is 1 %.
-    """
+    """Return a text that describes a combined change of parameters, scaled such that the largest change is 1 %."""
     largest = int(np.argmax(np.abs(direction)))
     scaled = direction / direction[largest]
     named = []
@@ -280,8 +284,9 @@ def _in_words(space: Space, direction: Array) -> str:
 
 
 def combinations(space: Space, jacobian: Array) -> list[str]:
-    """Return the combinations of parameters that the data determine best and worst, with the standard error of the
-    first parameter of each combination.
+    """Return texts that describe the combination of parameters that the data determine best, and the combination that
+    the data determine worst. A text contains the standard error along the combination, as a change of the combination's
+    first parameter.
     """
     if len(space) < 2:
         return []
@@ -299,7 +304,9 @@ def combinations(space: Space, jacobian: Array) -> list[str]:
 
 
 def _size(one: Coordinate, change: float) -> str:
-    """Return a change of a parameter's coordinate as text."""
+    """Return a text for a change of a parameter whose coordinate changes by `change`: per cent, or a number with the
+    unit.
+    """
     if not one.log:
         return f"{change * one.width:.2g} {one.unit}".rstrip()
     return f"{100 * change:.2g} %" if change < 1 else f"{100 * change:.0f} %"

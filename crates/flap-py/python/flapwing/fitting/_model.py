@@ -1,4 +1,4 @@
-"""The model of a fit, which computes readings at many sets of parameters in one batch."""
+"""The model of a fit, which predicts the readings for many sets of parameters in one batch of simulations."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _KEPT = 16
 
 @dataclass(frozen=True)
 class Outputs:
-    """The outputs of the model: measures at operating points, with one number for each output."""
+    """A list of the values that the model computes. Each entry is a measure at an operating point."""
 
     #: The data set of each output, for parameters that differ between data sets.
     of_set: Places
@@ -46,7 +46,7 @@ class Outputs:
 
 @dataclass(frozen=True)
 class Answer:
-    """The results of the model at one set of parameters."""
+    """The predictions of the model for one set of parameters."""
 
     #: Values of the measures; nan if the motion does not settle.
     values: Array
@@ -60,17 +60,19 @@ class Answer:
 
 @dataclass(frozen=True)
 class Part:
-    """The operating points that a search runs: all points with a fitted reading, and all points on branches."""
+    """The operating points that are simulated during a search: all points with a fitted reading, and all points on
+    branches of hysteresis.
+    """
 
     points: dict[str, Any]
     branches: list[Branch]
     outputs: Outputs
-    #: The places of `outputs` among all readings.
+    #: The index of each entry of `outputs` among all readings.
     places: Places
 
 
 class Model:
-    """The readings of data sets as functions of the free parameters."""
+    """The model of a fit: predictions of the readings of all data sets, as functions of the free parameters."""
 
     def __init__(
         self,
@@ -100,9 +102,10 @@ class Model:
         self._known: dict[tuple[bytes, bool, float | None], Answer] = {}
 
     def at(self, xs: Sequence[Array], *, slopes: bool = True, rtol: float | None = None) -> list[Answer]:
-        """Return the values that the model predicts for the readings, for each vector of free parameters in `xs`.
+        """Return the predictions of the readings for each vector of search coordinates in `xs`.
 
-        Values of readings that are not fitted are nan.
+        A prediction is nan if the operating point of the reading is not simulated during a search, because it has only
+        held-out readings.
         """
         keys = [(x.tobytes(), slopes, rtol) for x in xs]
         new = {key: x for key, x in zip(keys, xs) if key not in self._known}
@@ -126,7 +129,9 @@ class Model:
         slopes: bool = True,
         rtol: float | None = None,
     ) -> list[Answer]:
-        """Return the values of the model at operating points outside the data, for several sets of coordinates."""
+        """Return the predictions of the model at the given operating points, for each vector of search coordinates in
+        `xs`.
+        """
         rows = _length(points)
         columns: dict[str, Any] = {
             name: np.tile(values, len(xs)) if isinstance(values, np.ndarray) else list(values) * len(xs)
@@ -159,11 +164,13 @@ class Model:
         return answers
 
     def everything(self, x: Array) -> Answer:
-        """Return all readings of the model at coordinates, including the readings that are not fitted."""
+        """Return the predictions of all readings at the coordinates `x`, including held-out readings."""
         return self.answers(self.points, self.outputs, self.branches, [x], rtol=FINE)[0]
 
     def _whole(self, answer: Answer) -> Answer:
-        """Return results for all readings, from the results for the readings that a search computes."""
+        """Return an answer with an entry for every reading. Readings that are not in `answer` get nan and the status
+        ``"held out"``.
+        """
         count, places = len(self.outputs.row), self.part.places
         if len(places) == count:
             return answer
@@ -178,7 +185,9 @@ class Model:
         return Answer(values, slopes, status, gaps)
 
     def _near_zero(self, x: Array) -> list[int]:
-        """Return the coordinates whose parameter has a value near zero, where relative changes give no derivative."""
+        """Return the indices of the coordinates whose parameter is close to zero. At zero, a relative change of the
+        parameter gives no derivative.
+        """
         coordinates = self.space.coordinates
         return [
             column
@@ -187,7 +196,7 @@ class Model:
         ]
 
     def _step(self, x: Array, column: int) -> Array:
-        """Return a step of one coordinate towards the inside of the coordinate's bounds."""
+        """Return a small step of one coordinate, in the direction that does not leave the bounds of the coordinate."""
         step = np.zeros(len(x))
         # The coordinate of a parameter changes by 2 over the range of the parameter.
         size = 2 * _NEAR_ZERO
@@ -195,8 +204,8 @@ class Model:
         return step
 
     def reason(self, reading: int, x: Array) -> str:
-        """Return the reason why the point of a reading is impossible at given coordinates. The reason is empty text if
-        the point is possible.
+        """Return the reason why the parameters at the operating point of a reading are invalid. Return an empty text if
+        the parameters are valid.
         """
         of_set, row = self.outputs.of_set[reading], self.outputs.row[reading]
         free = {
@@ -219,7 +228,9 @@ class Model:
         return rows
 
     def _free(self, outputs: Outputs, rows: int, xs: Sequence[Array]) -> dict[str, Array]:
-        """Return the columns of points with the free parameters."""
+        """Return a column of values for each free parameter, with one row for each operating point and each vector in
+        `xs`.
+        """
         of_row = np.zeros(rows, np.intp)
         of_row[outputs.row] = outputs.of_set
         columns = {name: np.empty((len(xs), rows)) for name in self.space.parameters}
@@ -234,7 +245,9 @@ class Model:
         which = np.array([measures.index(name) for name in outputs.measure], np.intp)
 
         def whole(found: Any, empty: Any) -> Any:
-            """Return one row for each point. The row is empty for a point that the conditions of the design exclude."""
+            """Return an array with one row for each point. The row of a point that a condition in ``[where]`` excludes
+            contains the value `empty`.
+            """
             everything = np.full((len(xs) * rows, *found.shape[1:]), empty, dtype=found.dtype)
             everything[table["point"].astype(np.intp)] = found
             return everything.reshape(len(xs), rows, *found.shape[1:])
@@ -265,7 +278,7 @@ def _length(points: Mapping[str, Any]) -> int:
 
 
 def _si(names: Names, keywords: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the parameters among keywords: numbers in SI units, or options."""
+    """Return the keyword arguments that are parameters of the design, as numbers in SI units or names of options."""
     return {
         name: value if name in names.options else _flapwing.value(names.model, name, value)
         for name, value in keywords.items()
@@ -276,8 +289,8 @@ def _si(names: Names, keywords: Mapping[str, Any]) -> dict[str, Any]:
 def _points(
     options: Container[str], sets: Sequence[DataSet], nominal: Mapping[str, Any]
 ) -> tuple[dict[str, Any], list[Branch]]:
-    """Return the operating points of all data sets as columns, and the branches of the data sets that have a branch. A
-    parameter that a data set lacks has the value in `nominal`.
+    """Return the operating points of all data sets as columns of parameters, and the branches of hysteresis in the data
+    sets. If a data set has no values of a parameter, the column contains the value in `nominal`.
     """
     varied = list(dict.fromkeys(name for one in sets for name in one.points)) or ["drive_frequency"]
     points: dict[str, Any] = {}

@@ -1,4 +1,4 @@
-"""The names of parameters and measures, and the meaning of the columns of readings."""
+"""The names of parameters and measures, and the parameter or measure that each column of readings contains."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _IN_BRACKETS = re.compile(r"(.*?)\s*[(\[]\s*(.*?)\s*[)\]]\s*")
 
 @dataclass(frozen=True)
 class Meaning:
-    """The meaning of a column of readings."""
+    """The content of a column of readings: a parameter, a measure, or standard errors of a measure."""
 
     #: ``"parameter"``, ``"measure"``, or ``"sigma"`` for the standard error of a measure.
     kind: str
@@ -50,7 +50,9 @@ class Meaning:
 
 
 def _hint(name: str, known: list[str]) -> str:
-    """Return the most similar known name as part of an error message. Return empty text if no known name is similar."""
+    """Return a part of an error message that proposes the most similar known name. Return an empty text if no known
+    name is similar.
+    """
     near = difflib.get_close_matches(name, known, n=1) or [other for other in known if other.startswith(f"{name}_")]
     return f", did you mean `{near[0]}`?" if near else ""
 
@@ -74,8 +76,8 @@ class Names:
         self.measures = {measure["name"]: measure["unit"] for measure in _flapwing.measures(self.model)}
 
     def is_measure(self, name: str) -> bool:
-        """Return True for a measure of the model or of the design's ``[measure]``. A measure of ``[measure]`` is added
-        to `measures`, without a unit.
+        """Return True if `name` is a measure of the model, or a measure that the design defines under ``[measure]``.
+        The method adds a measure that the design defines to the attribute `measures`, without a unit.
         """
         if name in self.measures:
             return True
@@ -87,7 +89,7 @@ class Names:
         return True
 
     def parameter(self, name: str) -> str:
-        """Return the name of a parameter. Raise ValueError for an unknown name."""
+        """Return the full name of a parameter. Raise ValueError if no parameter has this name."""
         return name if name in self.parameters else _flapwing.parameter(self.model, name)
 
     def unit(self, name: str) -> str:
@@ -95,11 +97,15 @@ class Names:
         return self.parameters[name] if name in self.parameters else self.measures[name]
 
     def meaning(self, place: str, header: str) -> Meaning:
-        """Return the meaning of a column. Raise ValueError for a name that is neither a parameter nor a measure."""
+        """Return the content of a column of readings. Raise ValueError if the header is neither a parameter nor a
+        measure.
+        """
         return self.meanings(place, [header])[0]
 
     def meanings(self, place: str, headers: Sequence[str]) -> list[Meaning]:
-        """Return the meanings of columns. Raise ValueError for names without a meaning."""
+        """Return the content of each column of readings. Raise ValueError if a header is neither a parameter nor a
+        measure.
+        """
         found = [self._meaning(place, header) for header in headers]
         unknown = [header for header, one in zip(headers, found) if one is None]
         if unknown:
@@ -132,7 +138,7 @@ class Names:
         return self._parameter_or_measure(place, header, name, unit)
 
     def check_measure(self, name: str) -> None:
-        """Raise ValueError with the most similar name if `name` is not a measure."""
+        """Raise ValueError if `name` is not a measure. The error message proposes the most similar name."""
         if not self.is_measure(name):
             raise ValueError(
                 f"there is no measure `{name}`{_hint(name, list(self.measures))}\n"
@@ -143,7 +149,7 @@ class Names:
         return name in self.parameters or self.is_measure(name)
 
     def _parameter_or_measure(self, place: str, header: str, name: str, unit: str | None) -> Meaning | None:
-        """Return the meaning of a column that is not a standard error, or None for an unknown name."""
+        """Return the parameter or measure that a column contains. Return None if the name of the column is unknown."""
         stem, ending = _flapwing.split_unit(name)
         for candidate, own in ((name, None), (stem, ending)):
             candidate = self._renamed(_SHORT.get(candidate, candidate))

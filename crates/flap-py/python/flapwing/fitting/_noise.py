@@ -22,8 +22,8 @@ class Noise:
     size: Array | float = 1.0
 
     def of(self, values: Array, measured: Array, guess: float) -> Array:
-        """Return the standard errors of readings, from the model's values of the readings. `guess` replaces unknown
-        standard errors.
+        """Return the standard errors of readings. Relative standard errors are multiplied by the model's predictions
+        `values`. If the standard errors are unknown, return `guess` for each reading.
         """
         if self.kind == "unknown":
             return np.full(len(measured), guess)
@@ -38,8 +38,8 @@ UNKNOWN_NOISE = Noise("unknown")
 
 
 def parse_noise(name: str, given: Any, measure: str, unit: str) -> Noise:
-    """Parse the standard error of a measure: a number in the unit of the measure, or text such as ``"1 deg"`` or ``"3
-    %"``.
+    """Return the standard error that a user gives for a measure as a `Noise` object. The user gives a number in the
+    unit of the measure, or text such as ``"1 deg"`` or ``"3 %"``.
     """
     wanted = (
         f'it must be a number in {unit or "the unit of the measure"}, or text such as "3 %"; '

@@ -1,4 +1,4 @@
-"""The free parameters of a fit, and the coordinates of the search."""
+"""The free parameters of a fit, and the coordinates in which the fit searches."""
 
 from __future__ import annotations
 
@@ -20,20 +20,19 @@ _REACH = 3.0
 
 @dataclass(frozen=True)
 class FreeParameter:
-    """A free parameter of `fit`.
+    """A parameter that `fit` estimates, with its bounds, its prior, and its variation between data sets.
 
     Attributes
     ----------
     low, high : float or str, optional
-        Bounds of the parameter, in SI units or as text with units. Default bounds: a third of the design's value, and
-        three times the design's value. If the design's value is zero, the default bounds are the typical bounds of a
-        term that the papers leave out, as in `flapwing.candidates`. Without typical bounds, `low` and `high` are
-        required.
-        The first search begins at the design's value, or at the middle of the bounds if the design's value is outside
-        of the bounds. A bound of zero is allowed if zero is an allowed value of the parameter.
+        Bounds of the parameter, in SI units or as text with units. The default bounds are a third of the design's value
+        and three times the design's value. If the design's value is zero, the default bounds are the bounds in the list
+        of `flapwing.candidates`. If the design's value is zero and the list does not contain the parameter, `low` and
+        `high` are required. The first search begins at the design's value, or at the middle of the bounds if the
+        design's value is outside of the bounds. A bound can be zero if the parameter can be zero.
     prior : (value, error), optional
-        A value that is known before the fit, and the standard error of this value: numbers in SI units, or text with
-        units. The standard error of a prior can also be text such as ``"5 %"``.
+        A value of the parameter that is known before the fit, and the standard error of this value. Both are numbers in
+        SI units or text with units. The standard error of a prior can also be a share of the value, such as ``"5 %"``.
     per_set : bool
         True if each data set has a separate value of the parameter, for example if the wing was changed between
         experiments.
@@ -41,7 +40,8 @@ class FreeParameter:
         The scatter of the parameter between several robots of the same design. Each data set has a separate value of
         the parameter, and the values of all data sets scatter about a common mean (normal distribution). The spread is
         the standard deviation of the scatter: a number in SI units, text with a unit, or text such as ``"5 %"`` of the
-        mean. If True, the spread is estimated from the data. A parameter with `spread` cannot have a `prior`.
+        mean. If `spread` is True, the standard deviation is estimated from the data. If you give `spread`, you cannot
+        give `prior`.
     """
 
     low: Value | None = None
@@ -53,7 +53,9 @@ class FreeParameter:
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A free parameter, either for all data sets or for one data set."""
+    """A coordinate of the search. A coordinate describes the value of a free parameter for all data sets, or for one
+    data set.
+    """
 
     parameter: str
     #: The index of the data set to which the coordinate applies; None for all data sets.
@@ -68,14 +70,15 @@ class Coordinate:
     prior: tuple[float, float] | None
 
     def value(self, x: Any) -> Any:
-        """Return the value of a parameter in SI units at a coordinate of the search. The coordinate 0 belongs to the
-        value in the design."""
+        """Return the value of the parameter in SI units for a value `x` of the coordinate. At ``x = 0``, the parameter
+        has the value `nominal`, which is usually the design's value.
+        """
         # Rounding must not lead out of the bounds: a parameter may have no values below its bound.
         value = self.nominal * np.exp(x) if self.log else self.nominal + self.width * x
         return np.clip(value, self.low, self.high)
 
     def at(self, value: float) -> float:
-        """Return the coordinate of the search that belongs to a value of the parameter in SI units."""
+        """Return the value of the coordinate for a value of the parameter in SI units."""
         return float(np.log(value / self.nominal) if self.log else (value - self.nominal) / self.width)
 
     def slope(self, x: float) -> float:
@@ -84,13 +87,15 @@ class Coordinate:
 
     @property
     def width(self) -> float:
-        """Half of the range of the parameter, which is the unit of a coordinate that is not logarithmic."""
+        """Half of the difference between the bounds of the parameter, which is the unit of a linear coordinate."""
         return 0.5 * (self.high - self.low)
 
 
 @dataclass(frozen=True)
 class Group:
-    """The coordinates of a parameter whose values in the data sets scatter about a common mean."""
+    """The coordinates of a parameter with a spread: one value for each data set, and all values scatter about a common
+    mean.
+    """
 
     parameter: str
     places: Places
@@ -100,7 +105,7 @@ class Group:
 
 
 class Space:
-    """All coordinates of the search of a fit."""
+    """All coordinates in which a fit searches."""
 
     def __init__(self, coordinates: Sequence[Coordinate], groups: Sequence[Group] = ()) -> None:
         self.coordinates, self.groups = list(coordinates), list(groups)
@@ -115,7 +120,7 @@ class Space:
         return len(self.coordinates)
 
     def values(self, x: Array) -> Array:
-        """Return the values of the free parameters in SI units, at given coordinates."""
+        """Return the values of the free parameters in SI units for the coordinates `x`."""
         return np.array([one.value(place) for one, place in zip(self.coordinates, x)])
 
     def slopes(self, x: Array) -> Array:
@@ -123,8 +128,8 @@ class Space:
         return np.array([one.slope(place) for one, place in zip(self.coordinates, x)])
 
     def prior(self, x: Array, leave_out: str = "") -> tuple[Array, Array]:
-        """Return the residuals of the priors, and the derivatives of these residuals with respect to the coordinates.
-        The residuals leave out the spread of the parameter `leave_out`.
+        """Return the residuals of the priors and spreads, and the derivatives of these residuals with respect to the
+        coordinates. The spread of the parameter `leave_out` gives no residuals.
         """
         known = [(place, one) for place, one in enumerate(self.coordinates) if one.prior is not None]
         residuals, slopes = np.zeros(len(known)), np.zeros((len(known), len(self)))
@@ -140,9 +145,9 @@ class Space:
         return residuals, slopes
 
     def contrasts(self, group: Group, x: Array) -> tuple[Array, Array]:
-        """Return contrasts of the values of a group, and the derivatives of the contrasts with respect to the
-        coordinates. The sum of the squared contrasts equals the sum of the squared deviations from the mean of the
-        values.
+        """Return independent differences (contrasts) between the values of a parameter in the data sets, and the
+        derivatives of the contrasts with respect to the coordinates. The sum of the squared contrasts equals the sum of
+        the squared deviations of the values from their mean.
         """
         from scipy.linalg import helmert
 
@@ -153,7 +158,7 @@ class Space:
 
 
 def _first_spread(group: Group, one: Coordinate) -> float:
-    """Return the first guess of the standard deviation of a group, with which the search begins."""
+    """Return the standard deviation of a parameter's values between data sets with which the search begins."""
     if group.given is not None and not group.is_share:
         return group.given
     share = 0.1 if group.given is None else group.given
@@ -161,7 +166,7 @@ def _first_spread(group: Group, one: Coordinate) -> float:
 
 
 def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[str, Any]) -> Space:
-    """Return the coordinates for the free parameters of a call of `fit`."""
+    """Return the coordinates for the parameters in the argument `free` of `fit`."""
     parameters = listed("free", free, names)
     if not parameters:
         raise ValueError("`free` is empty\ngive at least one parameter")
@@ -179,7 +184,7 @@ def space(free: Any, names: Names, sets: Sequence[DataSet], keywords: Mapping[st
 
 
 def listed(argument: str, given: Any, names: Names) -> dict[str, Any]:
-    """Return the parameters of an argument such as `free`, each with its bounds or None."""
+    """Return a dictionary from the names of the parameters in an argument such as `free` to their bounds or None."""
     if isinstance(given, str) or not hasattr(given, "__iter__"):
         raise TypeError(
             f"`{argument}` is {type(given).__name__}\n"
@@ -292,8 +297,9 @@ def _value(names: Names, name: str, given: Any) -> float | None:
 
 
 def _group(name: str, free: FreeParameter, names: Names, places: Places) -> Group:
-    """Return the coordinates of a parameter that has a value for each robot, as a group. Raise ValueError if the
-    `spread` in `free` is not allowed."""
+    """Return the `Group` of a parameter that has a separate value for each robot. Raise ValueError if the `spread` in
+    `free` is not allowed.
+    """
     if len(places) < 2:
         raise ValueError(f"free[{name!r}]: `spread` requires two or more data sets\ngive one data set for each robot")
     if free.prior is not None:
@@ -305,8 +311,9 @@ def _group(name: str, free: FreeParameter, names: Names, places: Places) -> Grou
 
 
 def _error(names: Names, name: str, subject: str, given: Any) -> tuple[float, bool]:
-    """Return a standard error or a standard deviation as a number and a flag. The flag is True if the number is a share
-    of the parameter's value, and False if the number is in SI units."""
+    """Return the number in a given standard error or standard deviation, and a flag. The flag is True if the number is
+    a share of the parameter's value, and False if the number is in SI units.
+    """
     text = given.strip() if isinstance(given, str) else ""
     if isinstance(given, (int, float)) and not 0 < given < np.inf:
         raise ValueError(f"free[{name!r}]: {subject} is {given!r}\nit must be finite and more than zero")

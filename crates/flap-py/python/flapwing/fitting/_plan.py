@@ -1,4 +1,6 @@
-"""Suggested next readings: operating points at which readings would reduce an error of the fit most."""
+"""Proposals for new readings: operating points at which readings would most reduce the standard error of a parameter or
+prediction.
+"""
 
 from __future__ import annotations
 
@@ -18,20 +20,22 @@ from ._search import finite_covariance
 
 @dataclass(frozen=True)
 class NextMeasurements:
-    """Operating points at which readings would reduce an error of the fit most, with the best point first.
+    """Operating points at which new readings would most reduce the standard error of a parameter or of a prediction,
+    with the best point first.
 
     Attributes
     ----------
     target, unit : str
-        The parameter or measure whose error is reduced, and the unit of the error.
+        The parameter or measure whose standard error is reduced, and the unit of the standard error.
     now : float
-        The error of the target without the new readings.
+        The standard error of the target before the new readings.
     points : list of dict
         The operating points: values of parameters, in SI units.
     measures : list of str
         The measure of the new reading at each point.
     errors : list of float
-        The error of the target after the readings at a point and at all earlier points in the list.
+        The standard errors of the target. The entry of a point is the standard error after the readings at this point
+        and at all earlier points in the list.
     """
 
     target: str
@@ -67,13 +71,13 @@ def plan(
     repeats: bool,
     errors_of: Callable[[str, Array], Array],
 ) -> tuple[list[int], list[str], list[float], float]:
-    """Return the best next readings in order: rows of `points`, measures, errors of the target after each reading, and
-    the present error of the target. The readings have the parameters and the branch of the data set `like`, whose index
-    is `place`.
+    """Return proposals for new readings, with the best reading first: the rows of `points`, and the measures. Also
+    return the standard error of the target after each reading, and before the first reading. New readings have the
+    parameters and the branch of the data set `like`, whose index is `place`.
 
-    A reading adds the outer product of the reading's derivatives, divided by the reading's variance, to the information
-    matrix. The next reading is the candidate reading after which the variance of the target is smallest. `errors_of`
-    returns the standard errors of the readings of a measure at given values.
+    To add a reading, the outer product of the reading's derivatives, divided by the reading's variance, is added to the
+    information matrix. In each step, the function chooses the reading after which the variance of the target is
+    smallest. `errors_of` computes the standard errors of readings from a measure and its predicted values.
     """
     rows, names, sensitivities = [], [], []
     for measure in measures:

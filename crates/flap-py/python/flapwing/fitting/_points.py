@@ -1,4 +1,4 @@
-"""Operating points of predictions and plans, and the measures of the model at these points."""
+"""Operating points at which a user predicts measures or plans readings, and the model's predictions at these points."""
 
 from __future__ import annotations
 
@@ -18,12 +18,14 @@ from ._model import FINE, Answer, Model, Outputs
 
 
 def cell(value: Any) -> str:
-    """Return a value of a parameter as a cell of a table."""
+    """Return the text of a parameter's value in a printed table."""
     return value if isinstance(value, str) else f"{value:g}"
 
 
 def points_of(model: Model, place: str, given: Any) -> dict[str, Any]:
-    """Return operating points, given as columns of parameters, a grid, or one point."""
+    """Return operating points as columns of parameters. `given` contains columns of parameters, a grid, or the
+    parameters of one point.
+    """
     if isinstance(given, Grid):
         return _of_grid(model, place, given)
     names = model.names
@@ -51,8 +53,9 @@ def points_of(model: Model, place: str, given: Any) -> dict[str, Any]:
 
 
 def _of_grid(model: Model, place: str, grid: Grid) -> dict[str, Any]:
-    """Return the points of a grid: the parameters that vary, and the parameters in ``[params]`` that differ from the
-    parameters of the fit. Fitted parameters in ``[params]`` have the values of the fit.
+    """Return the points of a grid as columns of parameters. The columns are the parameters that vary, and the
+    parameters in ``[params]`` whose values differ from the design of the fit. Fitted parameters in ``[params]`` are
+    ignored, because they have the values of the fit.
     """
     names = model.names
     if grid.model != names.model:
@@ -85,8 +88,8 @@ def _of_grid(model: Model, place: str, grid: Grid) -> dict[str, Any]:
 def answers_at(
     model: Model, points: Mapping[str, Any], measure: str, x: Array, place: int = 0, like: DataSet | None = None
 ) -> Answer:
-    """Return a measure at operating points outside the data, with the parameters of a data set. If `like` is given,
-    follow the branch of the data set `like` through its operating points.
+    """Return the predictions of a measure at given operating points, with the parameters of the data set with the index
+    `place`. If the data set `like` is given and has a branch, the motions are computed along this branch of hysteresis.
     """
     model.names.check_measure(measure)
     count = len(next(iter(points.values())))
@@ -102,7 +105,9 @@ def answers_at(
 
 
 def _with_data(model: Model, points: Mapping[str, Any], place: int, along: str) -> dict[str, Any]:
-    """Return points, after the points of a data set with the same parameters other than `along`."""
+    """Return columns that contain operating points of a data set, followed by the given points. The data set
+    contributes the points that differ from a given point at most in the parameter `along`.
+    """
     others = [name for name in points if name != along]
     wanted = {tuple(points[name][row] for name in others) for row in range(len(points[along]))}
     own = [
@@ -118,7 +123,7 @@ def _with_data(model: Model, points: Mapping[str, Any], place: int, along: str) 
 
 
 def error_of(answer: Answer, covariance: Array) -> Array:
-    """Return the standard errors of measures that result from the covariance of the coordinates."""
+    """Return the standard errors of predictions, computed from the covariance of the search coordinates."""
     known = np.where(np.isfinite(covariance), covariance, 0.0)
     error = np.sqrt(np.maximum(0.0, np.einsum("ij,jk,ik->i", answer.slopes, known, answer.slopes)))
     lost = ~np.isfinite(np.diag(covariance))

@@ -174,7 +174,7 @@ def _effort(fit: Solution) -> list[str]:
 
 
 def table(heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
-    """Return a table as text with aligned columns."""
+    """Return a text that shows a table with aligned columns."""
     widths = [max(len(line[place]) for line in [heads, *rows]) for place in range(len(heads))]
     return "\n".join(
         "  ".join(cell.ljust(width) for cell, width in zip(line, widths)).rstrip() for line in [heads, *rows]

@@ -1,4 +1,4 @@
-"""The result of a fit, with methods for predictions, and for the choice of next readings."""
+"""The result of a fit, with methods that predict measures and propose new readings."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from ._solution import Solution
 
 @dataclass(frozen=True)
 class Prediction:
-    """A predicted measure at operating points, with the uncertainty of the prediction.
+    """Predictions of a measure at operating points, with the uncertainties of the predictions.
 
     Attributes
     ----------
@@ -32,9 +32,11 @@ class Prediction:
     points : dict
         The operating points: values of parameters, in SI units.
     value : array
-        The predicted values of the measure. A value is nan if the motion does not settle.
+        The predicted values of the measure. A predicted value is nan if the motion at its operating point does not
+        settle.
     error : array
-        Standard errors of the predictions, from the errors of the parameters and the discrepancy of the model.
+        Standard errors of the predictions, computed from the standard errors of the parameters and the discrepancy of
+        the model.
     low, high : array
         Lower and upper ends of the 95 % bands of the predictions.
     status : array of str
@@ -73,64 +75,69 @@ class Fit(Solution):
     estimates : dict of str to Estimate
         Value, standard error, 95 % interval and profile of each fitted parameter, in SI units.
     spreads : dict of str to Spread
-        Mean and standard deviation over all robots of each `FreeParameter` with `spread`.
+        For each `FreeParameter` with `spread`, the mean and the standard deviation of the parameter over all robots.
     correlations : array
         Correlations of the estimates, in the order of `estimates`. A correlation is nan if the data do not determine
         one of the two parameters.
     combinations : list of str
-        The combinations of parameters that the data determine best and worst.
+        Texts about two combinations of parameters: the combination that the data determine best, and the combination
+        that the data determine worst.
     indistinct : list of str
-        Combined changes of parameters that change no reading: exact scalings of the model, and parameters without
-        effect.
+        Sentences about parameters without an effect on any reading, and about combined changes of parameters that
+        change no reading.
     goodness : Goodness
-        Chi-square, the probability of chi-square, and the residuals by data set and measure.
+        Chi-square, the probability of chi-square, and the residuals of each data set and measure.
     unsettled : list of Unsettled
         Readings that are ignored, because the motion at the operating point does not settle.
     held_out : HeldOut or None
         The predictions of readings that were not fitted (`hold_out`).
     discrepancy : list of Discrepancy
-        The discrepancy of the model for each measure. `discrepancy` is empty if the model agrees with the data.
+        The discrepancy of the model for each measure: the part of the residuals that is not noise. `discrepancy` is
+        empty if the model agrees with the data.
     outliers : list of Outlier
         Fitted readings that are far from the model, with the largest residual first. The residual of an outlier is
-        larger than 4 standard errors, or larger than 3 standard errors if `loss` is not ``"linear"``.
+        larger than 4 standard errors. If `loss` is not ``"linear"``, the limit is 3 standard errors.
     drifting : str
-        The parameter that explains a disagreement between data sets best, if each data set has a separate value.
-        `drifting` is empty if the data sets agree.
+        The parameter that best explains a disagreement between data sets, because its value probably changed between
+        the data sets. `drifting` is empty if the data sets agree.
     effort : Effort
-        The amount of work of the fit: number of starts, points and evaluations, and the time.
+        The cost of the fit: the number of searches, simulated points and evaluations of the equations of motion, and
+        the time.
     """
 
     def predict(self, points: Any, measure: str, *, data_set: str | None = None, reading: bool = False) -> Prediction:
-        """Predict a measure at given operating points, with 95 % bands.
+        """Predict a measure at given operating points, with 95 % confidence bands.
 
-        The bands of the predictions contain the errors of the parameters. If the model does not agree with the data,
-        the bands also contain the discrepancy of the model for the predicted measure. The discrepancy of a measure
-        without readings is unknown.
+        The width of the bands accounts for the standard errors of the parameters. If the model does not agree with the
+        data, the width also accounts for the discrepancy of the model for the predicted measure. If the data have no
+        readings of the measure, the discrepancy is unknown, and the bands leave it out.
 
         Parameters
         ----------
         points : dict, DataFrame or Grid
             Columns of parameters, as in `Readings`. You can leave out parameters that have the same value in all data
-            sets. A grid sets the parameters of its axes, its derived parameters, and the parameters in ``[params]``
-            that were not fitted. The remaining parameters of the grid's preset or device are not used, so the grid must
-            have one preset or device.
+            sets. If you give a grid, it sets the parameters of its axes, its derived parameters, and the parameters in
+            ``[params]`` that were not fitted. Other parameters of the grid's preset or device are ignored, so the grid
+            must name only one preset or device.
         measure : str
             The measure to predict. The data need not have readings of the predicted measure.
         data_set : str, optional
-            The data set whose parameters and branch are used for the prediction. By default, the prediction has the
-            parameters of the first data set, and motions from rest. A branch is followed through the points of the data
-            set that differ only in the parameter of the branch. Without such points, the branch begins at the first
-            point of the prediction.
+            The data set whose parameters and branch are used for the prediction. By default, the prediction uses the
+            parameters of the first data set, and all motions start from rest. If the data set has a branch of
+            hysteresis, flap computes the motions along the branch, from one operating point to the next. The branch
+            contains the points of the data set that differ from a predicted point only in the data set's `parameter`.
+            If the data set has no such points, the branch begins at the first point of the prediction.
         reading : bool
-            If True, the bands also contain the noise of a reading, so that the bands contain 95 % of new readings. The
-            standard errors of the noise are the standard errors of `data_set`. If `data_set` has no readings of the
-            measure, the standard errors are the standard errors of the first data set with such readings.
+            If True, the width of the bands also accounts for the noise of readings, such that 95 % of new readings are
+            within the bands. The noise has the standard errors of the readings in `data_set`. If `data_set` has no
+            readings of the measure, the noise has the standard errors of the first data set with readings of the
+            measure.
 
         Returns
         -------
         Prediction
-            The prediction with `value`, `error`, `low` and `high`, in the unit of the measure. The predictions are nan
-            at a point whose motion does not settle.
+            The prediction with `value`, `error`, `low` and `high`, in the unit of the measure. If the motion at a point
+            does not settle, the prediction at this point is nan.
 
         Raises
         ------
@@ -163,7 +170,8 @@ class Fit(Solution):
         repeats: bool = False,
         data_set: str | None = None,
     ) -> NextMeasurements:
-        """Return the operating points at which readings would reduce the error of a parameter or a prediction most.
+        """Return the operating points at which new readings would most reduce the standard error of a parameter or of a
+        prediction.
 
         Parameters
         ----------
@@ -171,37 +179,39 @@ class Fit(Solution):
             Operating points that could be measured, as columns of parameters. You can leave out parameters that have
             the same value in all data sets.
         target : str or dict
-            The parameter whose error is reduced, or a prediction such as ``{"measure": "lift_mean_mn",
-            "drive_frequency": 110}``.
+            The parameter or the prediction whose standard error is reduced. A prediction is, for example, ``{"measure":
+            "lift_mean_mn", "drive_frequency": 110}``.
         count : int
-            Number of readings to choose: pairs of a point and a measure. Fewer readings are returned if `repeats` is
-            False and there are fewer pairs. Points without a settled motion are left out.
+            Number of readings to choose. A reading is a pair of an operating point and a measure. If `repeats` is False
+            and fewer pairs exist, the result contains all pairs. Points without a settled motion are left out.
         measures : list of str, optional
-            The allowed measures of the new readings. By default, the measures of the data and of `sigma` are allowed.
+            The measures that new readings can have. The default of `measures` is all measures in the data and in
+            `sigma`.
         sigma : dict, optional
-            Standard errors of readings by measure, such as ``{"pitch_amplitude_deg": "2 deg"}``. By default, the
-            standard errors are the standard errors of the data. `sigma` must contain a standard error for measures
-            without readings in the data.
+            The standard error of new readings of each measure, such as ``{"pitch_amplitude_deg": "2 deg"}``. By
+            default, new readings have the standard errors of the data. If the data have no readings of a measure,
+            `sigma` must contain a standard error of this measure.
         repeats : bool
-            If True, a measure can be read several times at the same point.
+            If True, the result can contain several readings of the same measure at the same point.
         data_set : str, optional
-            The data set whose parameters, branch and standard errors the new readings have, such as the robot that you
-            measure next. A prediction in `target` has the same parameters and branch. By default, the data set is the
-            data set of the parameter `target`, or the first data set. `predict` describes how a branch is followed.
-            Without a branch, all motions start from rest.
+            The data set that gives the new readings their parameters, branch and standard errors. For example, choose
+            the data set of the robot that you measure next. If `target` is a prediction, the prediction uses the same
+            data set. If `target` is a parameter of one data set, this data set is the default. Otherwise, the default
+            is the first data set. `Fit.predict` describes the computation of motions on a branch of hysteresis. If the
+            data set has no branch, all motions start from rest.
 
         Returns
         -------
         NextMeasurements
-            Operating points and measures, with the best reading first, and the error of the target that remains after
-            each reading. The error of a parameter is in the parameter's SI unit.
+            Operating points and measures, with the best reading first, and the standard error of the target after each
+            reading. If `target` is a parameter, the standard error is in the SI unit of the parameter.
 
         Raises
         ------
         ValueError
-            Raised if a name is unknown, a standard error is missing, `candidates` has no points, or no point has a
-            settled motion. Raised if `candidates` has a fitted parameter, or lacks a parameter that has several values
-            in the data.
+            Raised if a name is unknown, a standard error is missing, `candidates` contains no points, or no point has a
+            settled motion. Raised if `candidates` contains a fitted parameter, or lacks a parameter that has several
+            values in the data.
         """
         repeats = _arguments.flag("repeats", repeats)
         count = _arguments.count("count", count)
@@ -236,19 +246,20 @@ class Fit(Solution):
     def write_device(
         self, path: str | os.PathLike[str], *, data_set: str | None = None, overwrite: bool = False
     ) -> None:
-        """Write a device file: the design with the fitted parameters, and the standard errors and correlations of these
-        parameters.
+        """Write a device file that contains the design with the fitted parameters, and the standard errors and
+        correlations of the fitted parameters.
 
-        If the design is a device, the file keeps the description of the device. The file also keeps the standard
-        errors, correlations and sources of the parameters that were not fitted. You can name the file in a grid, as in
-        ``{"device": "mybee.toml"}``. ``[sample] of = "device"`` draws samples from the standard errors in the file.
+        If the design of the fit is a device, the new file also contains the description of this device. The new file
+        also contains the device's standard errors, correlations and sources of parameters that were not fitted. You can
+        name the new file in a grid, as in ``{"device": "mybee.toml"}``. The key ``[sample] of = "device"`` of a grid
+        draws samples of parameters from the standard errors in a device file.
 
         Parameters
         ----------
         path : str or path
             The path of the device file.
         data_set : str, optional
-            The data set whose parameters are written, if some parameters differ between data sets.
+            If some parameters have a separate value for each data set, the data set whose values are written.
         overwrite : bool
             If True, an existing file is replaced.
 
@@ -257,13 +268,15 @@ class Fit(Solution):
         FileExistsError
             Raised if the file exists, and `overwrite` is False.
         ValueError
-            Raised if some parameters differ between data sets, and `data_set` is not one of the data sets.
+            Raised if `data_set` is unknown. Raised if some parameters have a separate value for each data set, and
+            `data_set` is not given.
         """
         _device.write(self, path, data_set, _arguments.flag("overwrite", overwrite))
 
     def _noise(self, measure: str, sigma: Mapping[str, Any], data_set: str | None = None) -> Noise:
         """Return the standard error of new readings of a measure: a given standard error, or a typical standard error
-        of the data. Raise ValueError if `data_set` is None, and the data sets have different standard errors.
+        of the data. Raise ValueError if `data_set` is None and the data sets have different standard errors of the
+        measure.
         """
         self._model.names.check_measure(measure)
         if measure in sigma:
@@ -284,15 +297,16 @@ class Fit(Solution):
         return typical.get(data_set or "", next(iter(typical.values())))
 
     def _discrepancy_of(self, measure: str, values: Array) -> Array:
-        """Return the standard deviations of the discrepancy of the model at given values of a measure."""
+        """Return the standard deviation of the model's discrepancy for each predicted value of a measure."""
         noise = self._discrepancy.get(measure)
         return np.zeros(len(values)) if noise is None else noise.of(values, np.nan_to_num(values), 1.0)
 
     def _errors_of_readings(self, answer: Answer) -> Array:
         """Return the standard errors of the predictions of all readings.
 
-        The errors contain the errors of the parameters, the discrepancy of the model, and the noise of the readings. An
-        error is infinite if a prediction depends on a parameter that the data do not determine.
+        The standard errors account for the standard errors of the parameters, the discrepancy of the model, and the
+        noise of the readings. If a prediction depends on a parameter that the data do not determine, its standard error
+        is infinite.
         """
         error = np.hypot(error_of(answer, self._covariance), _search.sigmas(self._sets, answer.values, self._guesses))
         names = np.array(self._model.outputs.measure)
@@ -302,15 +316,18 @@ class Fit(Solution):
         return error
 
     def _predict_held_out(self, held: Mask) -> None:
-        """Compute `held_out`: predictions of the readings in the mask `held`."""
+        """Set the attribute `held_out`, which describes the predictions of the readings for which the mask `held` is
+        True.
+        """
         answer = self._model.everything(self._x)
         names, reach = np.array(self._model.outputs.measure), self._quantile * self._errors_of_readings(answer)
         self.held_out = _solution.held_out(names, all_readings(self._sets), answer.values, held, reach)
 
     def _target(self, target: str | Mapping[str, Any], data_set: str | None) -> tuple[Array, str, str, int]:
-        """Return the derivatives of a target with respect to the search coordinates, and the target's name and unit.
+        """Return the derivatives of a parameter or prediction with respect to the search coordinates, with its name and
+        unit.
 
-        A target is a parameter or a prediction. The last result is the index of the data set of new readings.
+        The last element of the result is the index of the data set that gives new readings their parameters and branch.
         """
         space = self._model.space
         chosen = None if data_set is None else self._place(data_set)
@@ -338,7 +355,9 @@ class Fit(Solution):
         return answer.slopes[0], measure, self._model.names.unit(measure), chosen or 0
 
     def _points(self, place: str, given: Any) -> dict[str, Any]:
-        """Return operating points, with added columns for the parameters that have the same value in all data sets."""
+        """Return operating points as columns of parameters. The method adds the parameters that have the same value in
+        all data sets.
+        """
         points = points_of(self._model, place, given)
         count = len(given) if isinstance(given, Grid) else len(next(iter(points.values())))
         for name, values in self._model.points.items():

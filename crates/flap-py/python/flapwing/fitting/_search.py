@@ -1,4 +1,6 @@
-"""The search for the best parameters: nonlinear least squares from several starts at the same time."""
+"""The search for the best parameters: nonlinear least squares, with several searches from different starting points at
+the same time.
+"""
 
 from __future__ import annotations
 
@@ -23,16 +25,17 @@ Ask = Callable[[Array], Answer]
 
 
 class _Ended(Exception):
-    """The exception that ends the searches, if the thread that answers the requests of the searches has ended."""
+    """The exception that ends a search, if the thread that computes the model for all searches has ended."""
 
 
 def together(
     searches: Sequence[Callable[[Ask], _Result]], answer: Callable[[list[Array]], list[Answer]]
 ) -> list[_Result]:
-    """Return the results of searches. Each search requests the model at one set of coordinates at a time.
+    """Run several searches at the same time, and return their results. Each search requests the model's predictions for
+    one set of coordinates at a time.
 
-    Searches run in threads. The present thread calls `answer` with the requests of all running searches, so that Ctrl-C
-    ends all searches.
+    Each search runs in its own thread. The calling thread passes the requests of all running searches to `answer`, so
+    that Ctrl-C ends all searches.
     """
     inbox: queue.SimpleQueue[tuple[int, str, Any]] = queue.SimpleQueue()
     replies: list[queue.SimpleQueue[Answer | None]] = [queue.SimpleQueue() for _ in searches]
@@ -94,7 +97,7 @@ _COST = 1e-4
 
 @dataclass(frozen=True)
 class Target:
-    """The readings of a fit, with the weight of each reading."""
+    """The readings of a fit, with their standard errors and the loss function."""
 
     measured: Array
     sigma: Array
@@ -106,8 +109,8 @@ class Target:
         """Return the residuals of the readings, (model - reading) / standard error, followed by the residuals of the
         priors.
 
-        If a motion does not settle, the value of the model is taken as zero, as for a wing at rest. The residual of an
-        unsettled motion is therefore large, and the search avoids the coordinates of unsettled motions.
+        If the motion at a reading does not settle, the model's prediction counts as zero, as for a wing at rest. The
+        residual of the reading is therefore large, and the search avoids coordinates at which motions do not settle.
         """
         values = np.where(np.isfinite(answer.values), answer.values, 0.0)
         residuals = ((values - self.measured) / self.sigma)[self.used]
@@ -118,8 +121,8 @@ class Target:
         return np.concatenate([(answer.slopes / self.sigma[:, np.newaxis])[self.used], space.prior(x)[1]])
 
     def losses(self, squares: Array) -> Array:
-        """Return the losses of squared residuals, and the first and second derivatives of the losses, as three rows.
-        The errors of priors are normal, so the loss of priors is linear.
+        """Return three rows: the loss of each squared residual, and the first and the second derivative of the loss.
+        The loss function of priors is ``"linear"``, because priors have normally distributed errors.
         """
         readings = int(self.used.sum())
         pairs = zip(LOSSES[self.loss], LOSSES["linear"])
@@ -134,7 +137,7 @@ class Target:
 
 @dataclass(frozen=True)
 class Found:
-    """The point at which a search ended."""
+    """The end of a search: coordinates, cost and derivatives of the residuals."""
 
     x: Array
     #: Half of the sum of the losses of all residuals.
@@ -153,7 +156,9 @@ def minimise(
     steps: int = _STEPS,
     tolerance: float = 1e-8,
 ) -> Found:
-    """Return the best coordinates near `begin`. The coordinate with the index `fixed` does not change."""
+    """Search the coordinates with the lowest cost, from `begin`. The coordinate with the index `fixed` does not
+    change.
+    """
     from scipy.optimize import least_squares
 
     moving = np.array([place for place in range(len(space)) if place != fixed], np.intp)
@@ -200,8 +205,8 @@ def minimise(
 
 
 def starts(model: Model, target: Target, count: int, seed: int) -> list[Array]:
-    """Return the coordinates at which searches start: the design's coordinates, and the best points of a scrambled
-    Sobol' sequence.
+    """Return the coordinates at which searches start: the coordinates of the design, and the points of a scrambled
+    Sobol' sequence with the lowest costs.
     """
     space = model.space
     own = np.clip(np.zeros(len(space)), space.low, space.high)
@@ -215,7 +220,7 @@ def starts(model: Model, target: Target, count: int, seed: int) -> list[Array]:
 
 
 def sobol(space: Space, count: int, seed: int) -> list[Array]:
-    """Return sets of coordinates that are spread over the bounds."""
+    """Return sets of coordinates that fill the region within the bounds evenly (Sobol' sequence)."""
     from scipy.stats import qmc
 
     power = int(np.ceil(np.log2(max(count, 1))))
@@ -245,11 +250,12 @@ _CURVATURE = 0.1
 
 
 def robust_factors(residuals: Array, loss: str, freedom: float) -> tuple[float, float]:
-    """Return the curvature of the cost, and the variance of the estimates. Both are relative to the linear loss.
+    """Return the curvature of the cost and the variance of the estimates, divided by their values for the linear loss.
 
     The variance is the variance of an M-estimator, E[psi^2] / E[psi']^2 (Huber and Ronchetti 2009, chapter 7). The
-    curvature is E[psi']. In these formulas, psi is the derivative of half of the loss with respect to the residual.
-    The variance is at least the variance for normal residuals, because a few residuals underestimate it.
+    curvature is E[psi']. In these formulas, psi is the derivative of half of the loss with respect to the residual. If
+    there are few residuals, this formula underestimates the variance. The function therefore returns at least the
+    variance for normally distributed residuals.
     """
     if loss == "linear":
         return 1.0, 1.0
@@ -261,17 +267,20 @@ def robust_factors(residuals: Array, loss: str, freedom: float) -> tuple[float, 
 
 
 def m_covariance(covariance: Array, inverse: Array, priors: Array, ratio: float) -> Array:
-    """Return the covariance of an M-estimator with priors.
+    """Return the covariance of the coordinates for a robust loss function (M-estimator), with priors.
 
-    `inverse` is the inverse of the curvature of the cost. `covariance` is the covariance for gradients whose variance
-    equals the curvature. The ratio of variance and curvature is E[psi^2] / E[psi'] for the readings, and 1 for the
-    priors. `priors` has the derivatives of the residuals of the priors.
+    `inverse` is the inverse of the curvature of the cost. `covariance` is the covariance of the coordinates if the
+    variance of the cost's gradient equals the curvature of the cost. `ratio` is the variance of the readings' gradient
+    divided by its curvature, E[psi^2] / E[psi']. For the priors, this ratio is 1. `priors` contains the derivatives of
+    the residuals of the priors.
     """
     return np.asarray(ratio * covariance - (ratio - 1.0) * inverse @ priors.T @ priors @ inverse)
 
 
 def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Found]:
-    """Return the ends of the searches from all starts, with the best end first."""
+    """Run a search from each of the coordinates `begins`, and return the ends of the searches with the lowest cost
+    first.
+    """
     searches = [
         partial(minimise, space=model.space, target=target, begin=begin, fixed=None, steps=25, tolerance=1e-3)
         for begin in begins
@@ -281,8 +290,8 @@ def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Foun
 
 
 def polish(model: Model, target: Target, begin: Array, error: float = _COST) -> Found:
-    """Return the best coordinates near `begin`, at the integration tolerance of the last search. `error` is the largest
-    error of the cost.
+    """Search the coordinates with the lowest cost, from `begin`, with the integration tolerance of the last search.
+    `error` is the largest allowed error of the cost.
     """
 
     def ask(x: Array) -> Answer:
@@ -293,7 +302,9 @@ def polish(model: Model, target: Target, begin: Array, error: float = _COST) -> 
 
 
 def tolerance_of(error: float, cost: float) -> float:
-    """Return the relative tolerance of a search whose cost is about `cost` and may have the absolute error `error`."""
+    """Return the relative tolerance of the cost for a search with a cost of about `cost` and an allowed absolute error
+    of `error`.
+    """
     return float(np.clip(error / max(cost, 1e-300), 1e-8, 1e-3))
 
 
@@ -304,8 +315,8 @@ RANK_TOLERANCE = 3e-4
 
 def decompose(jacobian: Array) -> tuple[Array, Array, Array, Mask]:
     """Return the lengths of the columns of `jacobian`, and the singular values and right singular vectors of the matrix
-    of normalised columns. The mask is True for singular vectors with an effect. Each row of the returned matrix is a
-    right singular vector.
+    with normalised columns. Each row of the third result is a right singular vector. The fourth result is a mask that
+    is True for the vectors with an effect on the residuals.
     """
     lengths = np.linalg.norm(jacobian, axis=0)
     lengths[lengths == 0.0] = 1.0
@@ -315,8 +326,9 @@ def decompose(jacobian: Array) -> tuple[Array, Array, Array, Mask]:
 
 
 def covariance_of(jacobian: Array) -> tuple[Array, Mask]:
-    """Return the covariance of coordinates from the derivatives of residuals, and a mask of the coordinates that the
-    residuals do not determine. The covariance leaves out directions without an effect on the residuals.
+    """Return the covariance of the coordinates, computed from the derivatives of the residuals. The covariance leaves
+    out directions without an effect on the residuals. The second result is a mask that is True for coordinates that the
+    residuals do not determine.
     """
     lengths, sizes, directions, known = decompose(jacobian)
     scaled = directions[known] / sizes[known, np.newaxis] / lengths
@@ -324,15 +336,15 @@ def covariance_of(jacobian: Array) -> tuple[Array, Mask]:
 
 
 def rank(jacobian: Array) -> int:
-    """Return the rank of the derivatives of residuals: the number of combinations of coordinates that the residuals
-    determine.
+    """Return the rank of the matrix of the residuals' derivatives: the number of combinations of coordinates that the
+    residuals determine.
     """
     return int(decompose(jacobian)[3].sum())
 
 
 def effective_parameters(space: Space, target: Target, x: Array, answer: Answer) -> float:
     """Return the effective number of parameters that the readings determine: the trace of the hat matrix of the
-    readings. A coordinate that a prior determines alone does not count.
+    readings. A coordinate does not count if only a prior determines the coordinate.
     """
     jacobian = target.jacobian(space, x, answer)
     readings = jacobian[: int(target.used.sum())]
@@ -340,8 +352,8 @@ def effective_parameters(space: Space, target: Target, x: Array, answer: Answer)
 
 
 def with_infinite_variances(covariance: Array, lost: Mask) -> Array:
-    """Return a covariance in which the variances of undetermined coordinates are infinite, and their correlations
-    unknown.
+    """Return a copy of `covariance` in which the coordinates in the mask `lost` have infinite variances, and nan as
+    covariances with other coordinates.
     """
     found = covariance.copy()
     found[lost, :] = np.nan
@@ -351,14 +363,16 @@ def with_infinite_variances(covariance: Array, lost: Mask) -> Array:
 
 
 def finite_covariance(information: Array) -> Array:
-    """Return the covariance of coordinates from their information matrix. A weak prior, with errors of a hundred times
-    the value, keeps undetermined variances finite.
+    """Return the covariance of the coordinates: the inverse of the information matrix. A weak prior with a standard
+    error of 100 for each coordinate keeps the variances finite, even if the data do not determine a coordinate.
     """
     return np.asarray(np.linalg.inv(information + 1e-4 * np.eye(len(information))))
 
 
 def first_guesses(sets: list[DataSet]) -> dict[str, float]:
-    """Return first estimates of unknown standard errors: 3 % of the largest reading of each measure."""
+    """Return a first estimate of the standard error of each measure: 3 % of the largest absolute reading of the
+    measure.
+    """
     largest: dict[str, float] = {}
     for one in sets:
         for measure, values in one.measured.items():
@@ -369,8 +383,8 @@ def first_guesses(sets: list[DataSet]) -> dict[str, float]:
 def new_guesses(
     sets: list[DataSet], target: Target, used: Mask, answer: Answer, parameters: float, guesses: dict[str, float]
 ) -> None:
-    """Update the estimates of unknown standard errors in `guesses`, from the residuals. The readings determine a number
-    of `parameters` (see `effective_parameters`).
+    """Compute the estimates of unknown standard errors in `guesses` again, from the residuals. `parameters` is the
+    effective number of parameters that the readings determine (see `effective_parameters`).
     """
     freedom = max(1.0, int(used.sum()) - parameters) / max(1, int(used.sum()))
     for measure in guesses:
@@ -383,8 +397,9 @@ def new_guesses(
 
 
 def sigmas(sets: Sequence[DataSet], values: Array, guesses: Mapping[str, float]) -> Array:
-    """Return the standard errors of all readings, given the model's values. `guesses` has estimates of the unknown
-    standard errors."""
+    """Return the standard errors of all readings, from the model's predictions `values`. `guesses` contains estimates
+    of the unknown standard errors.
+    """
     parts, begin = [], 0
     for one in sets:
         for measure, measured in one.measured.items():

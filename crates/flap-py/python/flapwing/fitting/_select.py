@@ -1,4 +1,4 @@
-"""Forward selection of free parameters: a search for the parameters and further terms that the readings require."""
+"""Forward selection of free parameters: a search for the parameters that must be fitted to explain the readings."""
 
 from __future__ import annotations
 
@@ -24,38 +24,38 @@ _WORTH = 0.5
 
 @dataclass(frozen=True)
 class SelectionStep:
-    """One step of a selection: the fit after a parameter becomes free or fixed.
+    """One step of a selection, which makes a parameter free or fixes a parameter, and fits all free parameters.
 
     Attributes
     ----------
     freed : str
-        The parameter that becomes free in the step. `freed` is empty for the first fit, and for a step that fixes a
+        The parameter that becomes free in this step. `freed` is empty for the first step, and for a step that fixes a
         parameter.
     removed : str
-        The parameter that the step sets back to the value in the design, because later parameters made the removed
-        parameter unnecessary. `removed` is empty in most steps.
+        The parameter that this step fixes at its value in the design, because the fit with later parameters does not
+        require it. `removed` is empty in most steps.
     parameters : list of str
         All free parameters after this step of the selection.
     chi_square : float
-        Sum of the squares of (residual / standard error) over all readings. For estimated standard errors,
-        chi-square contains no information about the fit.
+        Sum of the squares of (residual / standard error) over all readings and priors. If standard errors are estimated
+        from the residuals, chi-square does not show the quality of the fit.
     criterion : float
-        The value of the selection criterion after the step.
+        The value of the criterion of the selection (AICc or BIC) after this step.
     gain : float
-        The decrease of the criterion in the step. For the first fit, `gain` is nan.
+        The decrease of the criterion (AICc or BIC) in this step. For the first step, `gain` is nan.
     p : float
-        The probability that noise alone improves the fit as much as the best of all candidate parameters. With
-        estimated standard errors, `p` is computed by an F test, in which several measures count as one. The F test also
-        counts readings with given standard errors, so `p` can be too small if most readings have given standard
-        errors. If all standard errors are given, `p` is computed by a chi-square test. `p` is nan if the step frees no
-        parameter.
+        The probability that noise alone improves the fit as much as the parameter that becomes free in this step. If
+        all standard errors are given, `p` is computed by a chi-square test. If a standard error is estimated, `p` is
+        computed by an F test that treats all measures as one measure. This F test also counts readings with given
+        standard errors, so `p` can be too small if most readings have given standard errors. `p` is nan if no parameter
+        becomes free in this step.
     held_out : float
-        Root mean square of the errors of all readings that were not fitted. Each error is divided by the standard error
-        of its reading. `held_out` is nan if the selection has no `hold_out`.
+        Root mean square of the prediction errors of all held-out readings. Each prediction error is divided by the
+        standard error of its reading. `held_out` is nan if you do not give `hold_out`.
     alternatives : dict of str to float
-        The parameters that were fitted in the step but not chosen. Each value in `alternatives` is the criterion with
-        the parameter that was not chosen, minus the criterion with the chosen parameter. A parameter with a value below
-        2 in `alternatives` explains the readings about as well as the chosen parameter.
+        The candidate parameters that were fitted in this step but not chosen. A value in the dictionary is the
+        criterion of the fit with this candidate, minus the criterion of the fit with the chosen parameter. If the value
+        of a candidate is below 2, the candidate explains the readings about as well as the chosen parameter.
     """
 
     freed: str
@@ -76,22 +76,26 @@ class Selection:
     Attributes
     ----------
     steps : list of SelectionStep
-        The steps of the selection. The first step is the fit of the parameters `start`.
+        The steps of the selection. The first step fits the parameters in the argument `start`.
     final : Fit or None
-        The final fit, with several starts and with profiles. `final` is None if no parameter is free.
+        The final fit of all selected parameters, with several searches and with profile likelihoods. `final` is None if
+        no parameter is free.
     remaining : dict of str to float
-        The candidate parameters that are not free, with the predicted decrease of chi-square if the parameter becomes
-        free next. The parameter with the largest decrease is first.
+        The candidate parameters that are not free at the end of the selection. The value of a candidate is the
+        predicted decrease of chi-square if this candidate also becomes free. The candidate with the largest decrease is
+        first.
     stopped : str
         The reason for the end of the selection.
     at_bounds : list of str
-        Parameters whose estimate is at a bound in one of the fits. With wider bounds, the fit could be better.
+        Parameters whose estimate is at a bound in at least one of the fits. With wider bounds of these parameters, the
+        fit could be better.
     criterion : str
-        The name of the criterion.
+        The name of the criterion of the selection: ``"AICc"`` or ``"BIC"``.
     fits : int
         Number of fits, without the final fit.
     points, rhs_evals : int
-        Number of points, and number of evaluations of the equations of motion, in all fits including the final fit.
+        Number of simulated points, and number of evaluations of the equations of motion, in all fits including the
+        final fit.
     seconds : float
         Time of the selection (s).
     """
@@ -116,7 +120,7 @@ class Selection:
 
     @property
     def parameters(self) -> list[str]:
-        """The selected parameters, with the parameters `start` first."""
+        """The names of the selected parameters. The parameters in the argument `start` are first."""
         return self.steps[-1].parameters
 
     def __str__(self) -> str:
@@ -163,60 +167,64 @@ def select(
     progress: Progress = False,
     **keywords: Value,
 ) -> Selection:
-    """Select the parameters that readings require: free further parameters, one at a time, until the fit does not
-    improve.
+    """Select the parameters that must be fitted to explain the readings. `select` adds free parameters to the fit, one
+    at a time, until the fit does not improve.
 
-    Use `select` to find the effect that a model lacks. Each step predicts the gain of all candidate parameters from
-    derivatives at the present fit (score test), and fits the parameters with the largest gains. The step frees the
-    parameter with the lowest criterion. The selection ends if no candidate lowers the criterion, or if the improvement
-    is not significant. At the end, `select` fits all selected parameters once more, with several starts and profiles,
-    like `fit`.
+    Use `select` to find an effect that is missing in a model. Each step predicts the decrease of chi-square by each
+    candidate parameter, from derivatives at the present fit (score test). The step then runs a fit with each of the
+    best candidates, and keeps the candidate whose fit has the lowest criterion. The selection ends if no candidate
+    lowers the criterion, or if the improvement is not significant. At the end, `select` fits all selected parameters
+    once more, with several searches and profile likelihoods, like `fit`.
 
     Parameters
     ----------
     design : str, path, dict or Grid
         A preset, a device, or a grid without axes.
     data : dict, Table, DataFrame, path of a CSV file, or Readings; or a list of these
-        The readings, as for `fit`.
+        The readings, in the same forms as for `flapwing.fit`.
     candidates : list of str, or dict
-        The parameters that can become free, with bounds as for `fit`. `flapwing.candidates` returns a suitable
-        dictionary. A candidate that is not free keeps the value in the design.
+        The parameters that can become free, with bounds in the same forms as for `flapwing.fit`. `flapwing.candidates`
+        returns a suitable dictionary. A candidate that is not free has its value in the design.
     start : list of str, or dict
-        The parameters that are free from the beginning, with bounds as for `fit`.
+        The parameters that are free from the first step, with bounds in the same forms as for `flapwing.fit`.
     budget : int, optional
-        Largest number of free parameters, including `start`. The default of `budget` is a fifth of the number of
-        fitted readings, but at least one more than the number of parameters in `start`.
+        Largest number of free parameters, including the parameters in `start`. The default of `budget` is a fifth of
+        the number of fitted readings, but at least one more than the number of parameters in `start`.
     rhs_budget : float, optional
-        Number of evaluations of the equations of motion after which no further step begins. `rhs_budget` does not limit
-        the final fit.
+        Limit for the number of evaluations of the equations of motion. At this limit, `select` begins no further step,
+        but still runs the final fit.
     criterion : {"AICc", "BIC"}
-        The criterion that each step must lower.
+        The information criterion that each step of the selection must lower.
     significance : float
-        Largest probability that noise alone explains a step. The computed probability takes into account that the best
-        of all candidate parameters was chosen (Bonferroni correction). With ``significance=1``, only the criterion
-        decides, which frees too many parameters.
+        Limit of the probability that noise alone explains the improvement by a step. Above the limit, the selection
+        ends. The probability accounts for the choice of the best among all candidate parameters (Bonferroni
+        correction). With ``significance=1``, only the criterion ends the selection, so that too many parameters become
+        free.
     tries : int
-        Largest number of candidate parameters that are fitted in a step. Candidates with the same predicted effect on
+        Largest number of candidate parameters for which a step runs a fit. Candidates with the same predicted effect on
         the readings count as one candidate.
     sigma, seed, hold_out, threads, progress
-        The arguments of `fit` with the same names. Readings in `hold_out` do not take part in the selection.
+        These arguments have the same meaning as for `flapwing.fit`. The selection does not use the readings in
+        `hold_out`.
     starts : int
-        Number of starts of the final fit, in addition to the estimate of the selection.
+        Number of searches of the final fit, in addition to the search from the parameter values at the end of the
+        selection.
     profile : bool
-        True if the final fit computes profiles.
+        True if the final fit computes profile likelihoods.
     **keywords : float or str
-        Parameters of all data, and solver settings, as for `fit`.
+        Parameters that have the same value in all data sets, and solver settings, as for `flapwing.fit`.
 
     Returns
     -------
     Selection
-        The steps, the final fit, and the predicted gains of the candidate parameters that are not free.
+        The steps of the selection, the final fit, and the predicted effects of the candidate parameters that are not
+        free.
 
     Raises
     ------
     ValueError
-        Raised if an argument is invalid, as for `fit`. Raised if the criterion is unknown. Raised if a candidate has a
-        `spread`, or no value in the design. Raised if the budget is below the number of parameters in `start`.
+        Raised if an argument is invalid, as for `flapwing.fit`. Raised if `criterion` is unknown. Raised if a candidate
+        has a `spread`, or no value in the design. Raised if `budget` is below the number of parameters in `start`.
     TypeError
         Raised if an argument has the wrong type.
     ImportError
@@ -308,7 +316,9 @@ def select(
 
 
 def _best(work: Subsets, state: Subset, predicted: Mapping[str, Effect], tries: int) -> tuple[Subset, list[Subset]]:
-    """Return the best fit with one further free parameter, and the list of all fits that were tried and not chosen."""
+    """Return the best fit with one more free parameter, and a list of the other fits that were computed for this
+    choice.
+    """
     fitted: list[Subset] = []
     distinct: list[Effect] = []
     reached = 0.0
@@ -333,7 +343,7 @@ def _best(work: Subsets, state: Subset, predicted: Mapping[str, Effect], tries: 
 
 
 def _chance(state: Subset, best: Subset, count: int) -> float:
-    """Return the probability that noise alone improves the fit as much as the best of `count` candidates."""
+    """Return the probability that noise alone improves the fit as much as the best of `count` candidate parameters."""
     from scipy.stats import chi2, f
 
     more, less = best.criteria, state.criteria
@@ -365,8 +375,9 @@ def _step_of(
 
 
 def _final(work: Subsets, state: Subset, starts: int, seed: int, profile: bool) -> Fit | None:
-    """Return the fit of the selected parameters. The searches start at the estimate of the selection and at further
-    starts."""
+    """Return the fit of the selected parameters. One search starts at the parameter values of `state`, and `starts`
+    searches start at other values.
+    """
     if not state.names:
         return None
     begun = time.perf_counter()

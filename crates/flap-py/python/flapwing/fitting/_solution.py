@@ -1,4 +1,4 @@
-"""The solution of a fit, from which predictions, report and device are computed."""
+"""The solution of a fit, which contains all data for predictions, for the report and for the device file."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ class Estimate:
     value : float
         The estimated value of the parameter, in SI units.
     error : float
-        Standard error of the parameter from the derivatives at the estimate, in SI units. If the model disagrees with
-        the data, the error contains the discrepancy of the model.
+        Standard error of the parameter in SI units, computed from the derivatives at the estimate. If the model
+        disagrees with the data, the standard error includes the discrepancy of the model.
     low, high : float
-        Lower and upper end of the parameter's 95 % interval. If the profile likelihood was computed, the interval is
-        computed from the profile.
+        Lower and upper end of the parameter's 95 % confidence interval, in SI units. If the fit computed profile
+        likelihoods, the interval is computed from the profile likelihood.
     open_below, open_above : bool
-        True if the interval extends to the lower or upper bound of the parameter. If the interval extends to a bound,
-        the data give no limit for the parameter on the side of the bound.
+        True if the interval extends to the lower or upper bound of the parameter. The data then give no lower or upper
+        limit for the parameter.
     profile : Profile or None
-        The profile likelihood of the parameter, if the fit computed profiles.
+        The profile likelihood of the parameter. `profile` is None if the fit did not compute profile likelihoods.
     at_bound : bool
         True if the estimate of the parameter is at a bound of the parameter.
     """
@@ -88,12 +88,13 @@ class HeldOut:
     count : int
         Number of readings that were not fitted.
     rms : dict of str to float
-        Root mean square of the prediction errors of each measure, in the unit of the measure. `rms` does not contain
-        the `unsettled` readings.
+        Root mean square of the prediction errors of each measure, in the unit of the measure. Readings whose motion
+        does not settle do not count in `rms`.
     covered : float
-        The fraction of the readings within the 95 % bands of the predictions. The bands include the errors of the
-        parameters, the discrepancy of the model, and the noise of the readings. An `unsettled` reading counts as
-        outside its band. Readings without derivatives have no band, and do not count. `covered` is nan if no reading
+        The fraction of the held-out readings that are within the 95 % bands of their predictions. The width of the
+        bands accounts for the standard errors of the parameters, the discrepancy of the model, and the noise of the
+        readings. A reading whose motion does not settle counts as outside of its band. If a prediction has no
+        derivatives, its band is unknown, and its reading does not count. `covered` is nan if no held-out reading
         counts.
     unsettled : int
         Number of readings without a prediction, because the motion of the model at the operating point does not settle.
@@ -107,16 +108,17 @@ class HeldOut:
 
 @dataclass(frozen=True)
 class Effort:
-    """The amount of work of a fit.
+    """The cost of the computation of a fit.
 
     Attributes
     ----------
     starts : int
         Number of searches.
     agreed : int
-        Number of searches that ended at the best fit. `agreed` is 0 if only a profile found the best fit.
+        Number of searches that ended at the best fit. `agreed` is 0 if no search found the best fit, but the
+        computation of a profile likelihood did.
     points : int
-        Number of design points that were run.
+        Number of simulated points.
     rhs_evals : int
         Number of evaluations of the equations of motion.
     seconds : float
@@ -132,7 +134,7 @@ class Effort:
 
 @dataclass(frozen=True)
 class Outlier:
-    """A fitted reading that is far from the model.
+    """A fitted reading with a very large residual.
 
     Attributes
     ----------
@@ -141,7 +143,7 @@ class Outlier:
     row : int
         The row of the reading in the data set, counted from 1.
     residual : float
-        Model minus reading, in standard errors of the reading.
+        The model's prediction minus the reading, divided by the standard error of the reading.
     """
 
     data_set: str
@@ -161,8 +163,8 @@ class Residuals:
     measure, unit : str
         The measure whose residuals are listed, and the unit of the measure.
     values : array
-        Model minus reading, in the measure's unit. A residual is nan if the reading was not fitted, or if the motion
-        does not settle.
+        The residuals: the model's prediction minus each reading, in the measure's unit. A residual is nan if its
+        reading was not fitted, or if the motion does not settle.
     scaled : array
         The residuals divided by the standard errors of the readings.
     rms : float
@@ -170,7 +172,7 @@ class Residuals:
     count : int
         Number of fitted readings of the measure in the data set.
     is_structured : bool
-        True if the residuals of the measure have a pattern over all data sets (see `Structure`).
+        True if the residuals of the measure in all data sets together have a pattern (see `Structure`).
     """
 
     data_set: str
@@ -190,15 +192,15 @@ class Goodness:
     Attributes
     ----------
     chi_square : float
-        Sum of the squares of (residual / standard error) over all readings.
+        Sum of the squares of (residual / standard error) over all readings and priors.
     freedom : int
         Degrees of freedom of the fit: the number of readings and priors, less the number of parameters that the
         readings and priors determine.
     p : float
-        The probability of a sum of squares of at least `chi_square`, if the model and the given standard errors are
-        correct. `p` is nan if standard errors are estimated.
+        The probability of a chi-square of at least `chi_square`, if the model and the given standard errors are
+        correct. `p` is nan if standard errors are estimated from the residuals.
     residuals : list of Residuals
-        The residuals by data set and measure.
+        The residuals of each measure in each data set.
     structure : list of Structure
         Tests of the residuals of each measure for patterns along each parameter of the operating points.
     """
@@ -211,19 +213,19 @@ class Goodness:
 
     @property
     def is_structured(self) -> bool:
-        """True if the residuals have a pattern, which means that the model lacks an effect."""
+        """True if the residuals have a pattern, so that the model probably lacks an effect."""
         return any(one.is_structured for one in self.residuals)
 
 
 @dataclass(frozen=True)
 class Assessment:
-    """The errors of an estimate, and the quality of the fit."""
+    """The standard errors of the estimated parameters, and the quality of the fit."""
 
     #: The inverse of the curvature of the cost, and the covariance of the coordinates. The covariance contains the
     #: discrepancy of the model. Both are infinite for coordinates that the data do not determine.
     plain: Array
     covariance: Array
-    #: The standard error of each coordinate, divided by the standard error that belongs to the curvature of the cost.
+    #: The standard error of each coordinate, divided by the standard error that follows from the curvature of the cost.
     #: The factor is 1 for the linear loss without discrepancy.
     factors: Array
     #: The derivatives of the residuals and priors with respect to the coordinates, scaled to the curvature of the cost.
@@ -244,7 +246,7 @@ def of_residuals(
     counted: Mask,
     structured: set[str],
 ) -> list[Residuals]:
-    """Return the residuals of a fit by data set and measure."""
+    """Return the residuals of a fit: one `Residuals` object for each measure in each data set."""
     found, begin = [], 0
     for one in sets:
         for measure in one.measured:
@@ -272,8 +274,8 @@ def goodness(
 
 
 def held_out(names: np.ndarray[Any, Any], measured: Array, values: Array, held: Mask, reach: Array) -> HeldOut:
-    """Return the prediction errors of readings that were not fitted. `names` has the measure of each reading, and
-    `reach` has half of the width of each reading's 95 % band, or nan for a prediction without an error.
+    """Return a summary of the prediction errors of held-out readings. `names` contains the measure of each reading.
+    `reach` contains half of the width of each reading's 95 % band, or nan if the width is unknown.
     """
     difference = values - measured
     settled = held & np.isfinite(difference)
@@ -283,8 +285,8 @@ def held_out(names: np.ndarray[Any, Any], measured: Array, values: Array, held: 
 
 
 def rms_errors(names: np.ndarray[Any, Any], difference: Array, chosen: Mask) -> dict[str, float]:
-    """Return the root mean square of the differences of each measure, over the chosen readings. `names` has the measure
-    of each reading.
+    """Return the root mean square of `difference` for each measure, over the readings in the mask `chosen`. `names`
+    contains the measure of each reading.
     """
     return {
         str(measure): float(np.sqrt(np.mean(difference[chosen & (names == measure)] ** 2)))
@@ -293,8 +295,9 @@ def rms_errors(names: np.ndarray[Any, Any], difference: Array, chosen: Mask) -> 
 
 
 class Solution:
-    """Estimates with uncertainties, and the model and the data of the fit. The public class `Fit` adds methods to
-    `Solution`."""
+    """The estimates of a fit with their uncertainties, and the model and data of the fit. The public class `Fit`
+    inherits from `Solution` and adds methods.
+    """
 
     def __init__(
         self,
@@ -330,27 +333,29 @@ class Solution:
 
     @property
     def values(self) -> dict[str, Any]:
-        """The fitted values of the parameters that all data sets share, in SI units. Example: ``run(design,
-        **fit.values)``."""
+        """The fitted values of the parameters that have one value for all data sets, in SI units. Example:
+        ``run(design, **fit.values)``.
+        """
         space = self._model.space
         return {one.parameter: self.estimates[one.label].value for one in space.coordinates if one.of_set is None}
 
     @property
     def covariance(self) -> Array:
-        """The covariance of the estimates in SI units. The covariance is infinite for parameters that the data do not
-        determine."""
+        """The covariance matrix of the estimates, in SI units. If the data do not determine a parameter, its variance
+        is infinite, and its covariances are nan.
+        """
         slopes = self._model.space.slopes(self._x)
         return np.asarray(self._covariance * np.outer(slopes, slopes))
 
     @property
     def correlations(self) -> Array:
-        """The correlations of the estimates."""
+        """The correlation matrix of the estimates."""
         errors = np.sqrt(np.diag(self._covariance))
         with np.errstate(invalid="ignore"):
             return np.asarray(self._covariance / np.outer(errors, errors))
 
     def _place(self, data_set: str) -> int:
-        """Return the index of a data set. Raise ValueError for an unknown name."""
+        """Return the index of the data set with the given name. Raise ValueError if no data set has this name."""
         known = [one.name for one in self._sets]
         if data_set not in known:
             raise ValueError(f"there is no data set {data_set!r}\nchoose among {', '.join(known)}")

@@ -21,13 +21,14 @@ _TRIES = 200
 #: Rise of the deviance at the ends of a 95 % interval: the quantile of chi-square for one degree of freedom.
 _RISE = 3.84
 
-#: Weight of a prior that keeps undetermined parameters finite, with an error of a hundred times the value.
+#: Weight of a weak prior that keeps parameters finite if the data do not determine them: a standard error of 100 for
+#: each coordinate.
 _WEAK = 0.01
 
 
 @dataclass(frozen=True)
 class Spread:
-    """The scatter of a parameter between data sets, for a `FreeParameter` with `spread`.
+    """The scatter of a parameter between data sets, which a fit computes for each `FreeParameter` with `spread`.
 
     Attributes
     ----------
@@ -38,8 +39,8 @@ class Spread:
     value : float
         The standard deviation of the values of all robots about the common mean, in SI units.
     low, high : float
-        Lower and upper end of the 95 % interval of the standard deviation, in SI units. `low` and `high` equal `value`
-        if the standard deviation was given.
+        Lower and upper end of the 95 % interval of the standard deviation, in SI units. If the standard deviation was
+        given, `low` and `high` equal the given standard deviation.
     is_given : bool
         True if the standard deviation was given, and False if the standard deviation was estimated.
     """
@@ -68,8 +69,8 @@ def new_spreads(space: Space, target: Target, x: Array, answer: Answer) -> dict[
 
 
 def spreads(space: Space, target: Target, x: Array, answer: Answer, covariance: Array) -> dict[str, Spread]:
-    """Return the mean and the standard deviation of each parameter with a spread. `covariance` is the covariance of the
-    values of the free parameters.
+    """Return a `Spread` object for each parameter with a spread. `covariance` is the covariance of the values of the
+    free parameters, in SI units.
     """
     made = {}
     for group in space.groups:
@@ -90,8 +91,9 @@ def spreads(space: Space, target: Target, x: Array, answer: Answer, covariance: 
 
 
 def _lowest(tried: Array, deviances: Array) -> float:
-    """Return the standard deviation with the lowest deviance: the minimum of a parabola through three neighbouring
-    values."""
+    """Return the standard deviation with the lowest deviance, by a parabola through the lowest deviance in the list and
+    the two values next to it.
+    """
     best = int(np.argmin(deviances))
     if best in (0, len(tried) - 1):
         return float(tried[best])
@@ -100,11 +102,11 @@ def _lowest(tried: Array, deviances: Array) -> float:
 
 
 def _deviances(space: Space, group: Group, target: Target, x: Array, answer: Answer) -> tuple[Array, Array]:
-    """Return standard deviations of a parameter's values, and the deviance of each standard deviation (minus two times
-    the log likelihood).
+    """Return a list of possible standard deviations of a parameter between data sets. Also return the deviance for each
+    standard deviation, which is minus two times the log likelihood.
 
     The likelihood is integrated over all free parameters and over the mean of the values (restricted maximum
-    likelihood). For the integral, the residuals are taken as linear functions of the parameters.
+    likelihood). The integral approximates the residuals by linear functions of the parameters.
     """
     everything = target.residuals(space, x, answer)
     readings = int(target.used.sum())
@@ -132,5 +134,5 @@ def _deviances(space: Space, group: Group, target: Target, x: Array, answer: Ans
 
 
 def _triangle(matrix: Array) -> Array:
-    """Return the triangular factor of a matrix."""
+    """Return the upper triangular factor of the QR decomposition of a matrix."""
     return np.asarray(np.linalg.qr(matrix, mode="r"))

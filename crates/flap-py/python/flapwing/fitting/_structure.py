@@ -27,20 +27,21 @@ _EQUAL_SHARE = 0.02
 
 @dataclass(frozen=True)
 class Structure:
-    """A test of the residuals of a measure for a pattern along a parameter, over all data sets.
+    """The result of a test: whether the residuals of a measure in all data sets have a pattern along a parameter.
 
     Attributes
     ----------
     measure, parameter : str
-        The measure of the residuals, and the parameter of the operating points along which residuals are compared.
+        The measure whose residuals are tested, and the parameter of the operating points along which neighbouring
+        residuals are compared.
     p : float
-        The probability that pure noise gives neighbouring residuals that are at least as similar as the residuals of
-        the fit. Neighbours are readings that differ only in `parameter`. If several readings share each value of
-        `parameter`, the test also compares the means of the residuals at each value (analysis of variance). Values of a
-        parameter count as equal if they differ by at most 0.5 % and at most 2 % of the parameter's range. If the whole
-        range is at most 0.5 %, all values count as equal.
+        The probability that the neighbouring residuals of pure noise are at least as similar as the neighbouring
+        residuals of the fit. Neighbours are readings that differ only in `parameter`. If several readings have the same
+        value of `parameter`, the test also compares the mean residuals at the values (analysis of variance). Two values
+        of a parameter count as equal if their difference is at most 0.5 %, and at most 2 % of the parameter's range. If
+        the whole range of a parameter is at most 0.5 % of its value, all its values count as equal.
     is_structured : bool
-        True if the residuals have a pattern, which means that the model lacks an effect.
+        True if the residuals have a pattern, so that the model probably lacks an effect.
     """
 
     measure: str
@@ -50,7 +51,9 @@ class Structure:
 
 
 class Layout:
-    """The operating points of all readings, as ranks of the values of each parameter that varies."""
+    """The operating points of all readings. For each parameter, the class contains the ranks of the parameter's
+    values.
+    """
 
     def __init__(self, points: Mapping[str, Any], rows: Places, branches: Places) -> None:
         ranks = {name: _ranks(np.asarray(values)[rows]) for name, values in points.items()}
@@ -62,8 +65,9 @@ class Layout:
         self._branches = branches
 
     def pairs(self, parameter: str, chosen: Places) -> tuple[Places, Places]:
-        """Return pairs of neighbours along a parameter among the chosen readings: the first and the second reading of
-        each pair. The two readings of a pair differ only in the parameter.
+        """Return pairs of readings that are neighbours along a parameter. The first array contains the first reading of
+        each pair, and the second array the second reading. The two readings of a pair have the same values of all
+        parameters except the given parameter.
         """
         others = [self._branches, *(ranks for name, ranks in self.ranks.items() if name != parameter)]
         keys = np.stack([one[chosen] for one in others])
@@ -73,8 +77,8 @@ class Layout:
 
 
 def _ranks(values: np.ndarray[Any, Any]) -> Places:
-    """Return the ranks of values of a parameter. Each rank begins with its smallest value, and contains the values that
-    count as equal to this value. If the whole range of the values is at most 0.5 %, all values count as equal.
+    """Return the ranks of the values of a parameter. Values that count as equal to the smallest value of a rank get the
+    same rank. If the whole range of the values is at most 0.5 % of the largest value, all values count as equal.
     """
     if values.dtype.kind != "f":
         return np.unique(values, return_inverse=True)[1].astype(np.intp)
@@ -92,8 +96,8 @@ def _ranks(values: np.ndarray[Any, Any]) -> Places:
 
 
 def tests(layout: Layout, measures: Mapping[str, Places], scaled: Array) -> list[Structure]:
-    """Return a test for each measure and each parameter that varies. `measures` has the readings of each measure, and
-    `scaled` has the residuals in standard errors.
+    """Return the result of a test for each measure and each parameter that varies. `measures` contains the indices of
+    the readings of each measure, and `scaled` contains the residuals in standard errors.
     """
     found = [
         Structure(measure, parameter, p)
@@ -124,9 +128,11 @@ def _probability(layout: Layout, parameter: str, chosen: Places, scaled: Array) 
 
 
 def _probability_of_pairs(first: Array, second: Array, residuals: Array) -> float:
-    """Return the probability that pure noise gives pairs of neighbours that are at least as similar as the given pairs.
+    """Return the probability that neighbouring residuals of pure noise are at least as similar as the given pairs of
+    residuals.
 
-    The probability is computed from the number of pairs with different signs, and from the mean product of the pairs.
+    The probability is computed from the number of pairs with residuals of different signs, and from the mean product of
+    the residuals of a pair.
     """
     from scipy.stats import binom, norm
 

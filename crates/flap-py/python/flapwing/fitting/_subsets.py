@@ -1,4 +1,4 @@
-"""Fits of subsets of the parameters, for the selection of free parameters."""
+"""Fits in which only a subset of the parameters is free, for the selection of free parameters."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _ALIKE = 0.01
 
 @dataclass(frozen=True)
 class Subset:
-    """A fit of a subset of the parameters."""
+    """A fit in which only the parameters `names` are free."""
 
     names: list[str]
     x: Array
@@ -43,7 +43,7 @@ class Subset:
 
 @dataclass(frozen=True)
 class Effect:
-    """The predicted effect of one more free parameter."""
+    """The predicted effect on a fit if one more parameter becomes free."""
 
     #: The decrease of chi-square.
     gain: float
@@ -53,13 +53,13 @@ class Effect:
     change: Array
 
     def is_like(self, other: Effect) -> bool:
-        """Return True if the readings hardly distinguish this effect from the effect `other`."""
+        """Return True if the effect `other` changes the residuals in almost the same way as this effect."""
         return bool(np.sum((self.change - other.change) ** 2) < min(1.0, _ALIKE * float(other.change @ other.change)))
 
 
 @dataclass
 class Subsets:
-    """The data of a selection, and the fits of subsets of the parameters."""
+    """The data of a selection, with methods that compute fits in which a subset of the parameters is free."""
 
     names: Names
     sets: list[DataSet]
@@ -95,8 +95,9 @@ class Subsets:
         return made
 
     def fitted(self, names: list[str], begin: Array, guesses: Mapping[str, float], values: Array) -> Subset:
-        """Return the fit of the parameters `names` by a search from `begin`. At the beginning of the search, the
-        standard errors are computed for the model's values `values`."""
+        """Return the fit of the parameters `names`, computed by a search from the coordinates `begin`. At the beginning
+        of the search, relative standard errors are computed from the model's predictions `values`.
+        """
         space = self.space(names)
         model = self.model(space)
         known = dict(guesses)
@@ -110,7 +111,9 @@ class Subsets:
     def _searched(
         self, model: Model, target: Target, begin: Array, guesses: dict[str, float]
     ) -> tuple[Array, Answer, Target]:
-        """Return the final coordinates of a search from `begin`, with the final standard errors."""
+        """Return the coordinates at the end of a search from `begin`, the model's predictions there, and a `Target`
+        with the final standard errors.
+        """
         x = _search.from_all(model, target, [begin])[0].x if len(begin) else begin
         for _ in range(_ROUNDS):
             x = _search.polish(model, target, x, _COST).x
@@ -125,8 +128,8 @@ class Subsets:
         return x, answer, target
 
     def _note_bounds(self, space: Space, x: Array) -> None:
-        """Add the parameters at a bound to `at_bounds`. The bound at the design's value, or nearest to the design's
-        value, does not count.
+        """Add the parameters whose estimate is at a bound to `at_bounds`. A bound does not count if it equals the
+        design's value. If the design's value is outside of the bounds, the nearest bound does not count.
         """
         for one, place, low, high in zip(space.coordinates, x, space.low, space.high):
             nominal = np.clip(float(self.names.nominal.get(one.parameter) or 0.0), one.low, one.high)
@@ -136,19 +139,21 @@ class Subsets:
                     self.at_bounds[one.parameter] = None
 
     def held_out(self, state: Subset) -> float:
-        """Return the root mean square of the errors of all readings that were not fitted. Each error is divided by the
-        standard error of its reading. Return nan if all readings were fitted."""
+        """Return the root mean square of the prediction errors of all held-out readings. Each prediction error is
+        divided by the standard error of its reading. Return nan if no reading is held out.
+        """
         if not self.held.any():
             return float("nan")
         error = (np.nan_to_num(state.answer.values) - state.target.measured) / state.criteria.sigma
         return float(np.sqrt(np.mean(error[self.held] ** 2)))
 
     def predicted(self, state: Subset, more: Sequence[str]) -> dict[str, Effect]:
-        """Return the predicted effect of each further parameter that is freed, with the largest gain first.
+        """Return the predicted effect of each parameter in `more` if this parameter becomes free, with the largest
+        effect first.
 
         The prediction is a Gauss-Newton step of the free parameters and one candidate parameter, within the bounds of
-        this parameter. One evaluation of the model gives the derivatives with respect to all candidate parameters,
-        which have their values in the design.
+        the candidate. One evaluation of the model gives the derivatives for all candidates. In this evaluation, the
+        candidates have their values in the design.
         """
         active = self.space(state.names)
         beside = [(name, self._linear(one)) for name in more for one in self.coordinates[name]]
@@ -166,8 +171,9 @@ class Subsets:
         return dict(sorted(found.items(), key=lambda one: -one[1].gain))
 
     def without(self, state: Subset, name: str) -> Subset | None:
-        """Return the fit in which one parameter is not free. Return None if the derivatives predict that chi-square
-        rises too much."""
+        """Return the fit in which the parameter `name` is not free. Return None if, according to the derivatives,
+        chi-square would rise too much without the parameter.
+        """
         space = self.space(state.names)
         mine = np.array([one.parameter == name for one in space.coordinates])
         covariance = _search.with_infinite_variances(
@@ -180,19 +186,23 @@ class Subsets:
         return self.fitted(names, state.x[~mine], state.guesses, state.answer.values)
 
     def at_design(self, name: str) -> Array:
-        """Return the coordinates of a parameter at the value of the design, or at the nearest bound."""
+        """Return the coordinates at which a parameter has its value in the design. If this value is outside of the
+        bounds, return the coordinates of the nearest bound.
+        """
         value = float(self.names.nominal[name])
         return np.array([one.at(float(np.clip(value, one.low, one.high))) for one in self.coordinates[name]])
 
     def _linear(self, one: Coordinate) -> Coordinate:
-        """Return a linear coordinate without prior, whose origin is the design's value."""
+        """Return a linear coordinate without a prior for the same parameter. At 0, the parameter has its value in the
+        design.
+        """
         value = float(self.names.nominal[one.parameter])
         return replace(one, nominal=value, log=False, prior=None)
 
     def _step(
         self, name: str, x: Array, residuals: Array, free: Array, added: Array, space: Space, place: list[int]
     ) -> Effect:
-        """Return the predicted effect of one candidate parameter."""
+        """Return the predicted effect if one candidate parameter becomes free."""
         own = self.coordinates[name]
         left = np.linalg.pinv(free, rcond=_search.RANK_TOLERANCE) if free.shape[1] else np.zeros((0, len(residuals)))
         # The part of the derivatives and of the residuals that the free parameters cannot change.

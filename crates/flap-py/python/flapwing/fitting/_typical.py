@@ -1,4 +1,4 @@
-"""Bounds of the terms that the papers leave out, from typical sizes of a design."""
+"""Default bounds of the parameters of terms that the papers leave out, computed from typical sizes of the terms."""
 
 from __future__ import annotations
 
@@ -34,8 +34,9 @@ _BOUNDS = {
 
 
 def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
-    """Return typical sizes of terms for a design, in SI units. A size is nan if the design has no values of the
-    parameters in the size."""
+    """Return typical sizes of the terms of a design's equations of motion, in SI units. A size is nan if the design has
+    no value of a parameter from which the size is computed.
+    """
 
     def of(name: str) -> float:
         value = values.get(name)
@@ -55,9 +56,10 @@ def _sizes(values: Mapping[str, Any]) -> dict[str, float]:
 
 
 def typical_bounds(values: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
-    """Return bounds in SI units for the terms that the papers leave out, for a design with the parameters `values`.
+    """Return bounds in SI units for the parameters of terms that the papers leave out. `values` contains the parameters
+    of the design.
 
-    The bounds do not depend on the values of the terms, which are zero in most designs.
+    The bounds do not depend on the design's values of these parameters, which are zero in most designs.
     """
     sizes = _sizes(values)
     found = {name: (low * sizes[size], high * sizes[size]) for name, (low, high, size) in _BOUNDS.items()}
