@@ -244,9 +244,9 @@ def rank_correlations(
         The parameters whose correlation with the measure is computed. You can also give other columns of numbers. The
         default of `parameters` is all parameters of the table.
     where, **slices
-        Values of columns that select rows, as in `flapwing.plot.response`. If the table is from a grid without a
-        sample, the rows at all values of axes that you do not select are used. If the table combines a sample with axes
-        and you select no value of an axis, only the rows at the axis's middle value are used.
+        Values of columns that select rows, as in `flapwing.plot.response`. In results of a grid without a sample, all
+        values of an axis are used if you select no value. If a sample is combined with an axis and you select no value
+        of the axis, only the axis's middle value is used.
 
     Returns
     -------
@@ -392,9 +392,9 @@ def describe(
         Percentages from 0 to 100. If a percentile is between the values of two designs, the percentile is interpolated
         linearly, as in the command ``flap describe``.
     where, **slices
-        Values of columns that select rows, as in `flapwing.plot.response`. If the table is from a grid without a
-        sample, the rows at all values of axes that you do not select are used. If the table combines a sample with axes
-        and you select no value of an axis, only the rows at the axis's middle value are used.
+        Values of columns that select rows, as in `flapwing.plot.response`. In results of a grid without a sample, all
+        values of an axis are used if you select no value. If a sample is combined with an axis and you select no value
+        of the axis, only the axis's middle value is used.
 
     Returns
     -------

@@ -1,9 +1,9 @@
 """Functions that draw pictures of results with matplotlib.
 
-Every function takes a `flapwing.Table`, a data frame, a mapping of columns or the path of a file of results. Every
-function returns matplotlib Axes, a Figure if the picture has several Axes, or an animation. `flapwing.analysis`
-computes sensitivities, rank correlations and Pareto fronts. `style` sets the size of figures and letters. The functions
-that draw pictures do not change the settings of matplotlib.
+Most functions draw results in a `flapwing.Table`, a data frame, a mapping of columns or a results file. A function
+returns matplotlib Axes, a Figure if the picture has several Axes, or an animation. `flapwing.analysis` computes
+sensitivities, rank correlations and Pareto fronts. `flapwing.plot.style` sets the size of figures and letters. The
+functions that draw pictures leave the settings of matplotlib unchanged.
 
     >>> import numpy as np
     >>> from flapwing import plot

@@ -1,4 +1,4 @@
-"""Animations that are saved as files and shown in notebooks."""
+"""Animations that you can save as files or show in notebooks."""
 
 from __future__ import annotations
 
@@ -11,18 +11,18 @@ from matplotlib.figure import Figure
 
 
 class Scene(Protocol):
-    """A figure with parts that move."""
+    """A figure for an animation, with parts that move from frame to frame."""
 
     figure: Figure
     #: Number of frames.
     frames: int
 
     def draw(self, frame: int) -> list[Any]:
-        """Move all parts to their places in a frame, and return the moved parts."""
+        """Move all moving parts of the picture to their positions in a frame, and return these parts."""
 
 
 class Animation(FuncAnimation):
-    """An animation that notebooks display with buttons to play and stop."""
+    """An animation that a notebook shows with buttons to play and stop."""
 
     def __init__(self, scene: Scene) -> None:
         self._scene = scene
@@ -36,10 +36,11 @@ class Animation(FuncAnimation):
         Parameters
         ----------
         filename : path
-            The path of the file. The name of the file ends in ``.gif``, in ``.html`` (a page with buttons), or in the
-            ending of a format that matplotlib's writer supports. By default, the writer is ffmpeg.
+            The path of the file. The name must end in ``.gif``, ``.html`` (a page with buttons), or the ending of a
+            format that the argument `writer` supports. By default, matplotlib writes other formats than these two with
+            ffmpeg.
         writer, **options
-            Arguments of matplotlib's ``Animation.save``, such as ``fps`` and ``dpi``.
+            Arguments for the method ``Animation.save`` of matplotlib, such as ``fps`` and ``dpi``.
         """
         ending = Path(filename).suffix.lower()
         if writer is None and ending == ".gif":

@@ -1,4 +1,4 @@
-"""Checks of the types of arguments before a picture is drawn."""
+"""Checks of the arguments of functions that draw pictures."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _F = TypeVar("_F", bound=Callable[..., object])
 
 
 class _Kind(NamedTuple):
-    """A kind of argument: a check of the argument, and the allowed values as text."""
+    """A kind of argument: a function that checks the argument, and a text that describes the allowed values."""
 
     fits: Callable[[Any], bool]
     #: The allowed values of the argument, for error messages.
@@ -90,11 +90,11 @@ _KINDS: dict[str, _Kind | None] = {
 
 
 def checked(function: _F) -> _F:
-    """Return a function that checks its arguments and then calls the function `function`. A wrong argument raises
-    TypeError or ValueError.
+    """Return a function that checks its arguments and then calls `function`. The check raises TypeError or ValueError
+    if an argument is not allowed.
 
-    Each argument of `function` must have a kind in `_KINDS`. If `_KINDS` lacks the name of an argument, `checked`
-    raises KeyError. None is allowed for an argument with the default None.
+    `_KINDS` must contain the name of each argument of `function`, otherwise `checked` raises KeyError. If the default
+    of an argument is None, None is allowed.
     """
     signature = inspect.signature(function)
     named = [each for each in signature.parameters.values() if each.kind is not each.VAR_KEYWORD]

@@ -18,16 +18,17 @@ _MARKERS = "oxs^Dv+P"
 
 @checked
 def eigenvalues(models: Any, *, legend: bool | str = True, ax: Axes | None = None) -> _style.Drawn:
-    """Draw the eigenvalues of linear models in the complex plane. Modes to the right of the vertical line (positive
-    real part) grow over time.
+    """Draw the eigenvalues of linear models in the complex plane. A mode grows over time if its eigenvalue has a
+    positive real part, to the right of the vertical line.
 
     Parameters
     ----------
     models : LinearModel, or mapping of names to LinearModel
-        One linear model, or several models to compare. An array of eigenvalues (1/s) can replace a model.
+        One linear model, or several linear models with names. You can give an array of eigenvalues (1/s) instead of a
+        model.
     legend, ax
-        The legend and the axes, as for `response`. If `models` is one LinearModel without a name, the picture has no
-        legend.
+        These arguments have the same meaning as in `flapwing.plot.response`. If `models` is one LinearModel without a
+        name, the picture has no legend.
 
     Returns
     -------
@@ -38,7 +39,7 @@ def eigenvalues(models: Any, *, legend: bool | str = True, ax: Axes | None = Non
     ValueError
         Raised if `models` is empty.
     TypeError
-        Raised if an entry is neither a model nor an array of numbers.
+        Raised if an entry of `models` is neither a LinearModel nor an array of numbers.
 
     Examples
     --------
@@ -73,7 +74,7 @@ def eigenvalues(models: Any, *, legend: bool | str = True, ax: Axes | None = Non
 
 
 def _values(name: Any, model: Any) -> np.ndarray[Any, np.dtype[np.complex128]]:
-    """Return the eigenvalues of a model."""
+    """Return the eigenvalues of a LinearModel, or an array of eigenvalues that is given instead of a model."""
     allowed = "it must be a flapwing.LinearModel, or an array of eigenvalues"
     try:
         return np.atleast_1d(np.asarray(getattr(model, "eigenvalues", model), dtype=complex))

@@ -1,4 +1,4 @@
-"""Pictures of fits: readings with the bands of the model, profiles of the parameters, and correlations of the
+"""Pictures of fits: readings and the model's 95 % bands, profile likelihoods of the parameters, and correlations of the
 parameters.
 """
 
@@ -28,7 +28,7 @@ _CURVE = 80
 
 
 def fit(result: Fit, show: str | None = None) -> Figure:
-    """Draw a fit: readings with the 95 % bands of the model, profiles of the parameters, and correlations of the
+    """Draw a fit: readings with the model's 95 % bands, profile likelihoods of the parameters, and correlations of the
     parameters.
 
     Parameters
@@ -36,18 +36,19 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     result : Fit
         The result of `flapwing.fit`.
     show : {"data", "profiles", "correlations"}, optional
-        The picture to draw, if you want only one of the three pictures. The default of `show` is all three pictures.
+        Draw only this part of the picture. By default, the picture shows all three parts.
 
     Returns
     -------
     matplotlib Figure
-        The 95 % bands are for the value of the model and do not contain the noise of a reading. If a profile does not
-        reach the dashed line on one side, the data give no limit for the parameter on this side.
+        The figure. The 95 % bands show the uncertainty of the model's prediction, without the noise of a reading. If a
+        profile does not reach the dashed line on one side, the data give no limit for the parameter on this side.
 
     Raises
     ------
     ValueError
-        Raised if `show` is not the name of a picture, or the fit has no profiles.
+        Raised if `show` is not an allowed name. Raised if `show` is ``"profiles"`` and the fit did not compute profile
+        likelihoods.
     TypeError
         Raised if `result` is not a `Fit`.
     """
@@ -77,7 +78,7 @@ def fit(result: Fit, show: str | None = None) -> Figure:
 
 
 def _columns() -> int:
-    """Return the number of profiles that a figure shows beside each other."""
+    """Return the number of profile likelihoods in one row of a figure."""
     return 2 if _style.is_narrow() else 3
 
 
@@ -86,8 +87,9 @@ def _rows(count: int) -> int:
 
 
 def _data(result: Fit, measure: str, ax: Axes) -> None:
-    """Draw the readings of a measure with the bands of the model, against the parameter with the largest number of
-    values."""
+    """Draw the readings of a measure and the model's 95 % bands. The horizontal axis is the parameter that has the most
+    different values in the data.
+    """
     sets = [one for one in result._sets if measure in one.measured]
     numbers = {name: values for one in sets for name, values in one.points.items() if isinstance(values, np.ndarray)}
     if not numbers:
@@ -135,7 +137,9 @@ def _data(result: Fit, measure: str, ax: Axes) -> None:
 
 
 def _label(name: str, others: dict[str, Any], result: Fit) -> str:
-    """Return the name of a data set, and the parameters of this data set that differ from other data sets."""
+    """Return a label for readings: the name of the data set, and the parameters that have several values in the
+    data.
+    """
     varied = {
         parameter: value
         for parameter, value in others.items()
@@ -150,8 +154,9 @@ def _label(name: str, others: dict[str, Any], result: Fit) -> str:
 
 
 def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) -> None:
-    """Draw the profiles of a fit. A profile is the increase of the cost if one parameter is fixed at different
-    values."""
+    """Draw the profile likelihoods of a fit. A profile shows how much the cost of the fit increases if one parameter is
+    fixed at different values.
+    """
     rows = _rows(len(profiled))
     axes = part.subplots(rows, min(_columns(), len(profiled)), squeeze=False).ravel()
     for ax, (name, one) in zip(axes, profiled):
@@ -182,7 +187,7 @@ def _profiles(profiled: list[tuple[str, Estimate]], height: float, part: Any) ->
 
 
 def _correlations(result: Fit, part: Any) -> None:
-    """Draw the correlations of the fitted parameters as numbers in a map."""
+    """Draw the correlations of the fitted parameters as a coloured matrix with numbers."""
     names = [words(name, one.unit) for name, one in result.estimates.items()]
     values = result.correlations
     ax = part.subplots()

@@ -19,7 +19,7 @@ from ._forces import FORCES, TORQUES
 
 
 class _Panel(NamedTuple):
-    """The contents of one panel."""
+    """The contents of one panel of the picture: columns with the same unit."""
 
     words: str
     #: The unit for printing, and the factor from the unit of the columns to the unit for printing.
@@ -77,36 +77,39 @@ def flight(
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Figure | Axes:
-    """Draw a flight of a vehicle over time, with one panel for each group of columns. Several flights share the panels.
+    """Draw a flight of a vehicle over time, with one panel for each group of columns. You can draw several flights in
+    the same panels.
 
-    Colours stand for components, and line styles stand for flights. Circles at the time zero show the states that
-    `disturbance` of `fly` sets. Inputs are drawn as changes from the values at the beginning of the flight. Inputs are
-    constant within a wing beat.
+    The colour of a line shows the component, such as forward or left, and the line style shows the flight. Circles at
+    the time zero show the initial states that the argument `disturbance` of `flapwing.fly` sets. For an input, the
+    picture shows the change from its value at the beginning of the flight. An input is constant during a wing beat.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         A flight from `flapwing.fly` or ``flap vehicle --fly``. To compare up to four flights, give a mapping of names
-        to flights, or a list.
+        to flights, or a list of flights.
     groups : str or sequence of str, optional
-        The groups to draw: ``"velocity"`` (m/s), ``"rate"`` (rad/s), ``"position"`` (mm), ``"angle"`` (degrees),
-        ``"force"`` (mN), ``"torque"`` (µN·m) and ``"inputs"``. Inputs have one panel for each unit. The default of
-        `groups` is the four groups of states, and the inputs if the flights have inputs.
+        The groups of columns to draw: ``"velocity"`` (m/s), ``"rate"`` (rad/s), ``"position"`` (mm), ``"angle"``
+        (degrees), ``"force"`` (mN), ``"torque"`` (µN·m) and ``"inputs"``. The group ``"inputs"`` has one panel for each
+        unit. The default of `groups` is velocity, rate, position and angle, and the inputs if the flights have inputs.
     label : sequence of str, optional
-        The name of each flight of a list.
+        If `table` is a list of flights, the name of each flight.
     legend, ax
-        The legends and the axes, as for `response`. If `ax` is given, `groups` must have a single panel.
+        These arguments have the same meaning as in `flapwing.plot.response`. If you give `ax`, choose one group, and
+        the group must have only one panel.
 
     Returns
     -------
     matplotlib Figure, or Axes if `ax` is given
-        The axes of the figure have the order of `groups`.
+        The axes in the figure are in the order of `groups`.
 
     Raises
     ------
     ValueError
-        Raised if a table is no flight, or a group is unknown. Raised if more than four flights are given, or the number
-        of names differs from the number of flights. Raised if `ax` is given, but the flights have several panels.
+        Raised if a table does not contain a flight, or if a group is unknown. Raised if you give more than four
+        flights, or if the number of names differs from the number of flights. Raised if you give `ax` and the picture
+        has several panels.
 
     Examples
     --------
@@ -143,7 +146,7 @@ def flight(
 
 
 def _panels(runs: Mapping[str, Data], groups: Sequence[str] | None) -> list[_Panel]:
-    """Return the panels of the groups."""
+    """Return the panels for the given groups of columns."""
     inputs: dict[str, dict[str, str]] = {}
     states = {name for panel in GROUPS.values() for name in panel.columns}
     for run in runs.values():
@@ -175,8 +178,9 @@ def _panels(runs: Mapping[str, Data], groups: Sequence[str] | None) -> list[_Pan
 
 
 def _layout(count: int) -> list[Axes]:
-    """Return axes in two columns, or below each other in a narrow figure. If the number of axes is odd, the last axes
-    fill both columns."""
+    """Return new axes in two columns of panels, or in one column if the figure is narrow. If the number of panels is
+    odd, the last panel has the width of both columns.
+    """
     columns = 1 if count == 1 or _style.is_narrow() else 2
     rows = -(-count // columns)
     figure = _style.new_figure(3.2 + 2.8 * columns, 1.2 + 2.0 * rows)
@@ -196,7 +200,7 @@ def _layout(count: int) -> list[Axes]:
 
 
 def _draw(ax: Axes, panel: _Panel, runs: Mapping[str, Data]) -> list[Line2D]:
-    """Draw a panel, and return the entries of the panel's legend."""
+    """Draw one panel, and return the lines for the legend of this panel."""
     entries: list[Line2D] = []
     is_input = panel not in GROUPS.values()
     for (name, label), colour in zip(panel.columns.items(), _style.further_shades(ax, len(panel.columns))):

@@ -1,4 +1,4 @@
-"""A flight as an animation of the vehicle."""
+"""An animation of a flight, which shows the vehicle and its flapping wings."""
 
 from __future__ import annotations
 
@@ -46,49 +46,52 @@ def flight_film(
     frames: int = 100,
     scale: float | None = None,
 ) -> Animation:
-    """Animate a flight of a vehicle: the body with flapping wings, the trajectory up to the time of the frame, and the
-    time.
+    """Animate a flight of a vehicle: each frame shows the body with flapping wings, the trajectory up to the present
+    time, and the time.
 
-    The wings follow `motion`, which is the motion of a wing on a body at rest. The animation does not show the response
-    of the wings to the motion of the body or to the controller. If a wing beat has fewer than ten frames, the drawn
-    wings beat slower than the simulated wings: once in ten frames. The text above the picture shows how many times
-    slower the drawn wings beat.
+    The wings move as in `motion`, the motion of a wing on a body at rest. The animation does not show how the motion of
+    the body or the controller changes the motion of the wings. If a wing beat would have fewer than ten frames, the
+    animation slows the wings down to one beat in ten frames. The text above the picture then shows by which factor the
+    wings are slower.
 
-    A thick line shows the body. The thick line goes from the shoulders of the wings through the centre of mass, which
-    is a dot, to the opposite side. The length of the thick line is not a property of the vehicle. Keep the returned
-    `Animation` until you have saved or shown the animation: ``plot.flight_film(flight, motion).save("flight.gif")``.
+    A thick line shows the body. The thick line begins at the shoulders of the wings and passes through the centre of
+    mass, which is a dot. The thick line is equally long on both sides of the centre of mass, and does not show the
+    length of the real body. Store the returned `Animation` in a variable until you have saved or shown the animation:
+    ``plot.flight_film(flight, motion).save("flight.gif")``.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         A flight from `flapwing.fly` or ``flap vehicle --fly``.
     motion : Table, data frame, mapping of columns, or path
-        A trajectory of one wing from `flapwing.trajectory`. The trajectory has at least one cycle and the columns
-        ``time_s``, ``stroke_deg`` and ``pitch_deg``. If the motions of the wings differ, give a mapping of the names of
-        all wings to trajectories.
+        A trajectory of one wing from `flapwing.trajectory`. The trajectory must contain at least one cycle and the
+        columns ``time_s``, ``stroke_deg`` and ``pitch_deg``. If the wings have different motions, give a mapping from
+        the name of each wing to its trajectory.
     vehicle : Vehicle, Grid, dict or path, optional
-        The vehicle, which contains the positions and sizes of the wings. The default of `vehicle` is the vehicle of the
-        flight. If the flight is a file, `vehicle` is required.
+        The vehicle, from which the animation takes the positions and sizes of the wings. The default of `vehicle` is
+        the vehicle of the flight. If the flight is a file, you must give `vehicle`.
     views : sequence of str
-        A list of one to three views: ``"side"`` (from the right side), ``"top"`` and ``"front"``. The default of
-        `views` is side and top.
+        One to three directions from which the animation shows the vehicle: ``"side"`` (from the right side), ``"top"``
+        and ``"front"``. The default of `views` is ``("side", "top")``.
     frames : int
-        Number of frames. The frames are evenly spaced in time, from the first to the last row of the flight. A frame
-        takes about 0.1 s to draw.
+        Number of frames. The frames are evenly spaced in time, from the first to the last row of the flight. The
+        computation of a frame takes about 0.1 s.
     scale : float, optional
-        Factor by which the drawn vehicle is enlarged relative to the trajectory: more than zero. The default of `scale`
-        is the smallest factor, 1 or more, that makes the drawn vehicle at least 15 % of the flown distance.
+        Factor by which the drawn vehicle is larger than the true vehicle on the scale of the trajectory. `scale` must
+        be more than zero. By default, the factor is 1. If the true vehicle is smaller than 15 % of the flown distance,
+        the default factor enlarges the vehicle to 15 %.
 
     Returns
     -------
     Animation
-        A matplotlib ``FuncAnimation``, whose `save` also writes ``.gif`` and ``.html``.
+        A matplotlib ``FuncAnimation``. Its method `save` also writes ``.gif`` and ``.html`` files.
 
     Raises
     ------
     ValueError
-        Raised if the table is no flight or has fewer than two rows, or the trajectory does not repeat. Raised if the
-        flight has no vehicle, or the vehicle has no wings. Raised if a view or a wing is unknown.
+        Raised if `table` is not a flight with at least two rows, or if the motion in `motion` does not repeat. Raised
+        if the flight has no vehicle and `vehicle` is not given, or if the vehicle has no wings. Raised if a view or a
+        wing is unknown.
     """
     data = Data.of(table)
     for name in ("time_s", *GROUPS["position"].columns, *GROUPS["angle"].columns):
@@ -111,7 +114,7 @@ def flight_film(
 
 
 class _Wing(NamedTuple):
-    """A wing over one cycle of the wing's motion."""
+    """The positions of one wing during one cycle of its motion."""
 
     #: Duration of a cycle (s).
     seconds: float
@@ -122,7 +125,7 @@ class _Wing(NamedTuple):
 
 
 def _wings(data: Data, vehicle: Any, motion: Any) -> list[_Wing]:
-    """Return the wings of a vehicle."""
+    """Return the wings of a vehicle, with the positions of each wing during one cycle."""
     if vehicle is None:
         if "grid" not in data.meta:
             raise ValueError("the flight has no vehicle\ngive the vehicle with the argument `vehicle`")
@@ -149,7 +152,7 @@ def _wings(data: Data, vehicle: Any, motion: Any) -> list[_Wing]:
 
 
 def _wing(name: str, side: float, values: Mapping[str, Any], motion: Data) -> _Wing:
-    """Return a wing with the motion of the wing. `side` is -1 for a mirrored wing."""
+    """Return the positions of one wing during one cycle. `side` is -1 for a mirrored wing, and 1 for other wings."""
 
     def value(parameter: str) -> float:
         # A parameter of one wing that is not set is NaN.
@@ -175,7 +178,9 @@ def _wing(name: str, side: float, values: Mapping[str, Any], motion: Data) -> _W
 
 
 def _attitude(roll: np.ndarray, pitch: np.ndarray, yaw: np.ndarray) -> np.ndarray:
-    """Return the rotation matrices Rz(yaw) Ry(pitch) Rx(roll), each of which turns vectors from body to fixed axes."""
+    """Return the rotation matrices Rz(yaw) Ry(pitch) Rx(roll). A matrix converts vectors from body axes to fixed
+    axes.
+    """
     (sr, sp, sy), (cr, cp, cy) = ([function(angle) for angle in (roll, pitch, yaw)] for function in (np.sin, np.cos))
     rows = [
         [cy * cp, cy * sp * sr - sy * cr, cy * sp * cr + sy * sr],
@@ -186,7 +191,7 @@ def _attitude(roll: np.ndarray, pitch: np.ndarray, yaw: np.ndarray) -> np.ndarra
 
 
 class _Scene:
-    """The parts of the animation."""
+    """The figure of the animation, with the positions of the vehicle and its wings in all frames."""
 
     def __init__(self, data: Data, wings: list[_Wing], views: list[str], frames: int, scale: float | None) -> None:
         self.frames = frames
@@ -227,16 +232,18 @@ class _Scene:
         self.figure.set_layout_engine(None)
 
     def _at(self, time: np.ndarray, columns: np.ndarray) -> np.ndarray:
-        """Return the columns of the flight at the times of the frames."""
+        """Return columns of the flight, interpolated at the times of the frames."""
         return np.column_stack([np.interp(self.times, time, column) for column in columns.T])
 
     def _placed(self, points: np.ndarray) -> np.ndarray:
-        """Return the points of each frame in fixed axes (mm). The argument `points` is in body axes (m)."""
+        """Convert points from body axes (m) to fixed axes (mm), for every frame."""
         turned = np.einsum("fij,fpj->fpi", self.attitude, points)
         return np.asarray(self.path[:, np.newaxis] + 1e3 * self.scale * turned)
 
     def _caption(self, frame: int) -> str:
-        """Return the text above the picture."""
+        """Return the text above the picture: the time, and the factors by which the vehicle is larger and the wings are
+        slower.
+        """
         parts = [f"{self.times[frame]:.3f} s"]
         if self.slower > 1.0:
             parts.append(f"wing beats {self.slower:.2g} times slower")
@@ -251,7 +258,7 @@ class _Scene:
 
 
 class _View:
-    """A view of the vehicle along one axis."""
+    """The axes that show the vehicle from one direction."""
 
     def __init__(
         self, ax: Axes, across: int, up: int, xlabel: str, ylabel: str, middle: np.ndarray, half: float
@@ -271,7 +278,7 @@ class _View:
         (self.centre,) = ax.plot([], [], "o", color=_style.VERMILLION, markersize=_style.size(0.7), zorder=3.0)
 
     def draw(self, scene: _Scene, frame: int) -> list[Any]:
-        """Move the parts to their places in a frame, and return the moved parts."""
+        """Move the moving parts of this view to their positions in a frame, and return these parts."""
         self.wings.set_verts(scene.wings[frame][..., self.axes])
         self.path.set_data(*scene.path[: frame + 1, self.axes].T)
         self.body.set_data(*scene.body[frame][:, self.axes].T)

@@ -1,4 +1,4 @@
-"""Pictures of forces and torques of a vehicle: a map of the changes with inputs, or curves against a parameter."""
+"""Pictures of the forces and torques of a vehicle: the control matrix as a map, and curves against a parameter."""
 
 from __future__ import annotations
 
@@ -44,26 +44,26 @@ def control_matrix(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw the control matrix of a vehicle as a map: the change of each force and torque with each input.
+    """Draw the control matrix of a vehicle as a map: the derivative of each mean force and torque with respect to each
+    input.
 
-    The columns of the map are inputs, and the rows are components of force and torque. The number in a cell of the map
-    is the change of a force or torque per unit of an input. The colours of a column show which force or torque an input
-    changes most. For the colours, a torque of 1 µN·m counts as much as a force of 1 mN. A number below 0.1 % of the
-    largest number in the same column is shown as ``≈0``.
+    Each column of the map is an input, and each row is a component of force or torque. The number in a cell of the map
+    is the change of the force or torque per unit of the input. In each column, the strongest colour shows the force or
+    torque that the input changes most. For the colours, a torque of 1 µN·m counts as much as a force of 1 mN. The
+    picture shows ``≈0`` for a number below 0.1 % of the largest number in the same column.
 
     Parameters
     ----------
     table : Table, array, data frame, mapping of columns, or path
         One row of `evaluate` with ``gradient=``, the output of ``flap vehicle --format csv``, or an array of
-        derivatives. The array has one column for each input. The six rows are the forces forward, left and up (mN), and
-        the torques of roll, pitch and yaw (µN·m).
+        derivatives. An array has one column for each input, and six rows. The rows are the forces forward, left and up
+        (mN), and the torques of roll, pitch and yaw (µN·m).
     inputs : list of str, optional
-        The inputs to show, from left to right. If `table` is an array, `inputs` has the names of the columns of the
-        array.
+        The inputs to show, from left to right. If `table` is an array, `inputs` contains the names of its columns.
     where, **slices
-        The selection of rows, as for `response`.
+        Values of columns that select rows, as in `flapwing.plot.response`.
     colorbar, ax
-        The colour bar and the axes, as for `response`.
+        These arguments have the same meaning as in `flapwing.plot.response`.
 
     Returns
     -------
@@ -73,7 +73,8 @@ def control_matrix(
     ------
     ValueError
         Raised if the table has no derivatives of a force or torque, or several rows with derivatives. Raised if an
-        input is unknown. Raised if an array does not have six rows and one column for each input.
+        input is unknown. Raised if `table` is an array that does not have six rows, and one column for each name in
+        `inputs`.
 
     Examples
     --------
@@ -97,16 +98,17 @@ def control_matrix(
 
 @checked
 def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] | None = None, **slices: Any) -> Figure:
-    """Draw force and torque of a vehicle against one parameter, in six small panels: three forces above three torques.
+    """Draw the forces and torques of a vehicle against one parameter, in six small panels: three forces above three
+    torques.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of a vehicle.
+        Results of a vehicle, with the columns of forces and torques.
     x : str, optional
         The parameter on the horizontal axes of the panels. The default of `x` is the axis of the grid.
     where, **slices
-        The selection of rows, as for `response`.
+        Values of columns that select rows, as in `flapwing.plot.response`.
 
     Returns
     -------
@@ -115,7 +117,7 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
     Raises
     ------
     ValueError
-        Raised if the results do not have the columns of a vehicle, or a column or value is unknown.
+        Raised if the results do not contain the columns of forces and torques, or if a column or value is unknown.
     """
     data = Data.of(table).slice(where, slices)
     outputs = (*FORCES, *TORQUES)
@@ -147,7 +149,9 @@ def force_panels(table: Any, *, x: str | None = None, where: Mapping[str, Any] |
 
 
 def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects of inputs in an array, whose columns have the names `inputs`."""
+    """Return the effects of the inputs from an array of derivatives. `inputs` contains the names of the columns of the
+    array.
+    """
     if not isinstance(table, (np.ndarray, list, tuple)):
         return None
     values = np.asarray(table, dtype=float)
@@ -162,7 +166,7 @@ def _of_array(table: Any, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects of inputs from a table with derivatives, which has exactly one row."""
+    """Return the effects of the inputs from a table with derivatives. The table must have exactly one row."""
     gradient = data.meta.get("gradient")
     if not gradient:
         return None
@@ -178,13 +182,13 @@ def _of_gradient(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
 
 
 def _per(unit: str) -> str:
-    """Return the unit in the denominator of an input's effect, which is the unit of the input."""
+    """Return the unit of an input, which is the denominator in the unit of the input's effect."""
     return unit.partition("/")[2].strip("()")
 
 
 def _of_command(data: Data, inputs: Sequence[str] | None) -> _Effects | None:
-    """Return the effects of inputs from a table of `flap vehicle`. A table of `flap vehicle` has one row of means,
-    followed by one row for each input.
+    """Return the effects of the inputs from a table that the command `flap vehicle` prints. A table of `flap vehicle`
+    has one row of means, followed by one row for each input.
     """
     if "input" not in data:
         return None
@@ -207,7 +211,7 @@ def _chosen(inputs: Sequence[str] | None, known: Sequence[str]) -> list[str]:
 
 
 def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Drawn:
-    """Draw the map of the effects of inputs, with a number in each cell."""
+    """Draw the control matrix as a map, with a number in each cell."""
     values = effects.values
     sizes = np.abs(values)
     largest = np.max(np.where(np.isfinite(sizes), sizes, 0.0), axis=0)
@@ -235,7 +239,7 @@ def _map(effects: _Effects, colorbar: bool | Axes, ax: Axes | None) -> _style.Dr
 
 
 def _input(name: str, unit: str) -> str:
-    """Return the name and the unit of an input, broken into short lines."""
+    """Return the name and the unit of an input as text with several short lines."""
     text = _labels.words(name, unit).replace(", ", ",\n").replace(" ", "\n", 1)
     return f"{text}\nper {_labels.printed(unit)}" if unit else text
 

@@ -1,4 +1,4 @@
-"""A picture of a measure against two axes, as a map of colours."""
+"""A picture that shows a measure by colours in the plane of two parameters."""
 
 from __future__ import annotations
 
@@ -51,17 +51,19 @@ def heatmap(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a measure as a map against two axes, for example lift, power or efficiency against frequency and voltage.
+    """Draw a measure by colours in the plane of two parameters, for example lift, power or efficiency against frequency
+    and voltage.
 
-    The edges of cells are halfway between neighbouring values of an axis. On a logarithmic axis, the edges are halfway
-    between the logarithms of the values. Cells without a periodic motion are grey. A cell is hatched if ``[where]``
-    excludes the row of the cell, or if the row is not in the file. A legend explains grey and hatched cells. In a table
-    of `respond`, the curves of different designs have different points. In a map of a response, a cell without a row
-    shows the nearest row of the same curve.
+    The picture has a cell for each point of the grid, and the edges of the cells are halfway between neighbouring
+    values. On a logarithmic axis, the edges are halfway between the logarithms of the values. Cells without a periodic
+    motion are grey. A cell is hatched if ``[where]`` excludes the row of the cell, or if the row is not in the file. A
+    legend explains grey and hatched cells. In results of `flapwing.respond`, the curves of different designs have
+    different points. If a cell between the ends of such a curve has no row, the cell shows the nearest row of the
+    curve.
 
-    If the points form no grid, for example in a sample, each point is drawn as a dot. The colours between the dots are
-    interpolated linearly on triangles. A triangle is left out if one of the three points has no value. Crosses mark
-    points without a periodic motion.
+    If the points do not form a grid, for example in a sample, each point is drawn as a dot. Between the dots, the
+    picture shows colours that are interpolated linearly on triangles. A triangle is left out if one of its three
+    corners has no value. Markers such as crosses show points without a periodic motion.
 
     Parameters
     ----------
@@ -70,32 +72,34 @@ def heatmap(
     value : str, optional
         The measure to draw. The default of `value` is the mean lift.
     x, y : str, optional
-        The parameters on the axes: numbers or words. The default of `x` is ``drive_frequency``, or the last axis of the
-        grid if ``drive_frequency`` does not vary. The default of `y` is the first axis of the grid that is not x. If
-        the grid has fewer than two axes, the defaults for x and y are parameters of the sample.
+        The parameters on the horizontal and on the vertical axis, whose values are numbers or words. The default of `x`
+        is ``drive_frequency``. If ``drive_frequency`` does not vary, the default of `x` is the last axis of the grid.
+        The default of `y` is the first axis of the grid that is not on the horizontal axis. If the grid has fewer than
+        two axes, flap chooses parameters of the sample.
     xscale, yscale : {"linear", "log"}, optional
-        The scales of the axes. By default, an axis is logarithmic if its values have a constant ratio and span a factor
-        of ten or more, as in ``flap plot``. For points that form no grid, the default scale is linear.
+        The scales of the axes. By default, an axis is logarithmic if neighbouring values have a constant ratio and all
+        values together span a factor of ten or more. If the points do not form a grid, the default scale is linear.
     cmap : str, optional
-        A colour map of matplotlib. The default of `cmap` is viridis. For values of both signs, the default colour map
-        is white at zero, with a line at zero.
+        A colour map of matplotlib. The default of `cmap` is viridis. If the measure has positive and negative values,
+        the default colour map is white at zero, and a line in the picture marks the value zero.
     vmin, vmax : float, optional
-        The values at the ends of the colour bar, in the unit of the colour bar. The default of `vmin` is the smallest
-        value of the measure, and the default of `vmax` is the largest value. An arrow at an end of the colour bar marks
-        values that are outside of the colour bar.
+        The values at the ends of the colour bar, in the unit of the colour bar. By default, `vmin` is the smallest and
+        `vmax` is the largest value of the measure in the picture. If the measure has values beyond an end of the colour
+        bar, this end has an arrow.
     reduce : {"max", "min", "mean"}, optional
-        The cell's value if several rows have the same x and y: the largest value, the smallest value or the mean of
-        these rows. Rows with the same x and y differ in the axes that are not drawn. Rows without a value are left out.
+        The value of a cell to which several rows belong: the largest value, the smallest value or the mean of these
+        rows. Several rows belong to a cell if the grid has axes that are not drawn. Rows without a value are left out.
     annotate : bool
-        If True, a star marks the best cell. The legend has the value and the place of the best cell, and the values of
-        the axes that `reduce` combined. The best cell has the largest value with ``reduce="max"``, and the smallest
-        value with ``reduce="min"``. If `reduce` is neither ``"max"`` nor ``"min"``, the best cell has the smallest
-        value for costs such as power. By default, the best cell has the largest value for measures that are not costs.
+        If True, a star marks the cell with the best value. The legend contains the value and the parameters of this
+        cell. With ``reduce="max"`` or ``reduce="min"``, the legend also contains the cell's values on the axes that are
+        not drawn. The best cell has the largest value with ``reduce="max"``, and the smallest value with
+        ``reduce="min"``. If `reduce` is neither ``"max"`` nor ``"min"``, the best cell has the smallest value of a cost
+        such as power, and the largest value of other measures.
     where, **slices
-        The selection of rows, as for `response`. If `reduce` is given, the picture has the rows at all values of the
-        axes that are neither drawn nor selected.
+        Values of columns that select rows, as in `flapwing.plot.response`. If you give `reduce` and select no value of
+        an axis that is not drawn, `reduce` combines the rows at all values of this axis.
     legend, colorbar, ax
-        The legend, the colour bar and the axes, as for `response`.
+        These arguments have the same meaning as in `flapwing.plot.response`.
 
     Returns
     -------
@@ -104,8 +108,8 @@ def heatmap(
     Raises
     ------
     ValueError
-        Raised if a column or value is unknown. Raised if several rows are in one cell, and `reduce` is not given.
-        Raised if the points form no grid and are on one line.
+        Raised if a column or value is unknown. Raised if several rows belong to one cell, and `reduce` is not given.
+        Raised if the points do not form a grid, and all points are on one line.
 
     Examples
     --------
@@ -162,8 +166,8 @@ def heatmap(
 
 
 def _reduced(data: Data, names: Sequence[str], value: str, how: str) -> Data:
-    """Return one row for each combination of values in the columns `names`: the row with the largest or smallest value,
-    or one row with the mean.
+    """Return one row for each combination of values in the columns `names`. This row contains the largest value, the
+    smallest value or the mean of the rows with this combination.
     """
     groups = data.groups(names)
     values = np.where(data.measured(), data.numbers(value), np.nan)
@@ -188,7 +192,7 @@ def _combined(data: Data, x: str, y: str) -> list[str]:
 
 
 def _best_text(data: Data, row: int, value: str, names: Sequence[str]) -> str:
-    """Return the entry of the legend for the best row: the value of the measure, followed by the parameters."""
+    """Return the text of the legend for the best row: the value of the measure, and a line for each parameter."""
     lines = []
     for name in (value, *names):
         shown = data.shown(name)
@@ -197,14 +201,14 @@ def _best_text(data: Data, row: int, value: str, names: Sequence[str]) -> str:
 
 
 def _star(ax: Axes, place: tuple[float, float], label: str) -> Line2D:
-    """Mark a place in the map with a star, and return the star's entry of the legend."""
+    """Draw a star at a position in the map, and return the star for the legend."""
     look: Any = {"marker": "*", "linestyle": "none", "markersize": _style.size(2.0), "color": "white"}
     (line,) = ax.plot(*place, label=label, markeredgecolor=_style.DARK, markeredgewidth=_style.width(0.5), **look)
     return line
 
 
 class _Cells:
-    """A map of cells around the points of a grid."""
+    """A map of a measure for points that form a grid, with a cell around each point."""
 
     def __init__(
         self, data: Data, whole: Data, value: str, x: str, y: str, xscale: str | None, yscale: str | None
@@ -230,7 +234,9 @@ class _Cells:
         return mesh
 
     def mark_missing(self, ax: Axes, missing: Mapping[str, np.ndarray]) -> list[Any]:
-        """Fill the cells without a value, and return the legend entries."""
+        """Fill the cells without a value with a grey or a hatching, and return the entries of the legend for these
+        cells.
+        """
         entries = []
         for name, mask in missing.items():
             # Several cells along a curve may show the same row.
@@ -239,7 +245,7 @@ class _Cells:
         return entries
 
     def best(self, smallest: bool) -> tuple[int, tuple[float, float]]:
-        """Return the row with the best value of the measure, and the place of the row's cell."""
+        """Return the number of the row with the best value of the measure, and the centre of this row's cell."""
         cell = int(np.nanargmin(self.values) if smallest else np.nanargmax(self.values))
         line, column = np.unravel_index(cell, self.values.shape)
         return int(self.rows[line, column]), (float(self.across.centres[column]), float(self.up.centres[line]))
@@ -269,7 +275,7 @@ class _Axis:
         self.edges = edges(values, self.log)
 
     def places(self, column: np.ndarray) -> np.ndarray:
-        """Return the index of each row's cell along the axis."""
+        """Return, for each row of results, the index of its cell along this axis."""
         if self.shown.text:
             place = {word: i for i, word in enumerate(self.keys)}
             return np.array([place[word] for word in column.astype(str)])
@@ -288,10 +294,10 @@ class _Axis:
 
 
 def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
-    """Return the number of the row that each cell shows. Each row of the array `rows` contains the row numbers of one
-    curve.
+    """Return the number of the row of results that each cell shows. Each line of the array `rows` contains the row
+    numbers of one curve.
 
-    A cell between the ends of a curve gets the nearest row of the curve.
+    A cell without a row between the ends of a curve shows the nearest row of this curve.
     """
     filled = rows.copy()
     places = np.log(axis.centres) if axis.log else axis.centres
@@ -305,7 +311,9 @@ def _along_curves(rows: np.ndarray, axis: _Axis) -> np.ndarray:
 
 
 def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
-    """Return the parameters along x and y. If x or y is not given, an axis of the grid is chosen."""
+    """Return the parameters on the horizontal and on the vertical axis. If `x` or `y` is None, an axis of the grid or a
+    parameter of the sample is chosen.
+    """
     for name in (x, y):
         if name is not None:
             data[name]
@@ -328,7 +336,9 @@ def _two_axes(data: Data, x: str | None, y: str | None) -> tuple[str, str]:
 
 
 def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.ndarray]:
-    """Return the masks of cells without a value, one mask for each reason why a cell has no value."""
+    """Return a mask of cells without a value for each possible reason, such as a status of the motion or a missing
+    row.
+    """
     empty = ~np.isfinite(values)
     reasons: dict[str, np.ndarray] = {}
     if "status" in data:
@@ -344,7 +354,7 @@ def _missing(data: Data, rows: np.ndarray, values: np.ndarray) -> dict[str, np.n
 
 
 def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: str, count: int) -> Patch:
-    """Fill the cells without a value, and return the legend entry."""
+    """Fill the cells in `mask` with a grey or a hatching, and return the entry of the legend for these cells."""
     text = f"{name} ({count})"
     if name in (_NO_ROW, _UNDEFINED):
         hatch = "////" if name == _NO_ROW else "...."
@@ -363,7 +373,9 @@ def _fill(ax: Axes, across: np.ndarray, up: np.ndarray, mask: np.ndarray, name: 
 
 
 def _runs(across: np.ndarray, up: np.ndarray, mask: np.ndarray) -> list[list[tuple[float, float]]]:
-    """Return the outlines of groups of neighbouring cells, for every row of cells in a map."""
+    """Return rectangles that cover the cells in `mask`. Neighbouring cells in the same line of the map get one
+    rectangle.
+    """
     outlines = []
     for row, flags in enumerate(mask):
         ends = np.flatnonzero(np.diff(np.concatenate([[False], flags, [False]]).astype(int)))

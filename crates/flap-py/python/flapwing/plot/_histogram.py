@@ -1,4 +1,4 @@
-"""A histogram of a measure over designs, with mean, standard deviation and percentiles."""
+"""A histogram of a measure over designs, which also shows mean, standard deviation and percentiles."""
 
 from __future__ import annotations
 
@@ -30,27 +30,28 @@ def histogram(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a histogram of a measure over designs, with mean, standard deviation and percentiles.
+    """Draw a histogram of the values of a measure in many designs, and show mean, standard deviation and percentiles.
 
-    Designs without a periodic motion are left out. The rule of Freedman and Diaconis gives the width of the bars.
-    `flapwing.analysis.describe` returns mean, standard deviation and percentiles as numbers.
+    Designs without a periodic motion are left out. The width of the bars is computed by the rule of Freedman and
+    Diaconis. `flapwing.analysis.describe` returns mean, standard deviation and percentiles as numbers.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        A table of results of any kind.
+        Results of any flap computation, with one row for each design.
     measure : str, optional
-        A column of numbers. The default of `measure` is the mean lift, or a different measure if the table has no mean
-        lift.
+        A column of numbers. The default of `measure` is the mean lift. If the table has no mean lift, flap chooses a
+        different measure.
     percentiles : iterable of float, optional
-        Percentages from 0 to 100. For each percentage, the picture has a line at the percentile. The default of
-        `percentiles` is 5 %, 50 % and 95 %, as in ``flap plot``.
+        Percentages from 0 to 100. For each percentage, a line in the picture shows the percentile. The default of
+        `percentiles` is 5 %, 50 % and 95 %.
     where, **slices
-        The selection of rows, as for `response`. Unlike `response`, the picture has the designs at all values of the
-        axes of a grid. A grid can also combine a sample with an axis. If this axis is not selected, the picture has
-        only the rows at the middle value of the axis.
+        Values of columns that select rows, as in `flapwing.plot.response`. In results of a grid without a sample, all
+        values of an axis are used if you select no value. If a sample is combined with an axis and you select no value
+        of the axis, only the axis's middle value is used.
     legend, ax
-        The legend and the axes, as for `response`. The legend contains the mean and the standard deviation.
+        These arguments have the same meaning as in `flapwing.plot.response`. The legend contains the mean and the
+        standard deviation of the measure.
 
     Returns
     -------

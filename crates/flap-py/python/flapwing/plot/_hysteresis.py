@@ -1,4 +1,4 @@
-"""A picture of the rising and the falling branch of a response, and of the hysteresis loop between the branches."""
+"""A picture of the hysteresis of a response, with the branches `up`, `down` and `unstable`."""
 
 from __future__ import annotations
 
@@ -26,10 +26,11 @@ def hysteresis(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw the rising and the falling branch of a response, and the unstable orbits between the branches if the table
-    has unstable orbits.
+    """Draw the branches `up` and `down` of a response. If the table contains the branch `unstable`, the picture also
+    shows this branch.
 
-    Arrows show the direction of each branch and the jumps between the branches. Bistable bands are shaded.
+    Arrows show in which direction the parameter changes on each branch, and the jumps from branch to branch. Bistable
+    bands are shaded.
 
     Parameters
     ----------
@@ -38,13 +39,14 @@ def hysteresis(
     y : str, optional
         The measure to draw. The default of `y` is the peak-to-peak stroke.
     parameter : str, optional
-        The followed parameter. The default of `parameter` is the column after ``branch``.
+        The parameter that rises or falls along the branches, on the horizontal axis. The default of `parameter` is the
+        parameter that `flapwing.respond` changed.
     curve : int, optional
-        The number of the design in the column ``curve``, if the table has several designs.
+        If the table contains several designs, the number of one design in the column ``curve``.
     where, **slices
-        The selection of rows, as for `response`.
+        Values of columns that select rows, as in `flapwing.plot.response`.
     legend, ax
-        The legend and the axes, as for `response`.
+        These arguments have the same meaning as in `flapwing.plot.response`.
 
     Returns
     -------
@@ -53,8 +55,8 @@ def hysteresis(
     Raises
     ------
     ValueError
-        Raised if the table has several designs, and no design is selected. Raised if a column or value is unknown.
-        Raised if the table has no branches.
+        Raised if the table contains several designs, and you do not select one. Raised if a column or value is unknown.
+        Raised if the table contains neither the branch `up` nor the branch `down`.
     """
     data = Data.of(table)
     if "branch" not in data or "bistable" not in data:
@@ -123,7 +125,7 @@ def hysteresis(
 
 
 class _Branch:
-    """The rows of a branch, in the order of computation."""
+    """The rows of a branch, in the order in which they were computed."""
 
     def __init__(self, x: np.ndarray, y: np.ndarray, bistable: np.ndarray) -> None:
         self.x, self.y = np.ascontiguousarray(x, float), np.ascontiguousarray(y, float)
@@ -133,7 +135,9 @@ class _Branch:
 
 
 def _one_design(data: Data) -> None:
-    """Raise ValueError if the results have several designs. The error message has the parameters of the designs."""
+    """Raise ValueError if the results contain several designs. The error message lists the parameters that differ
+    between the designs.
+    """
     if "curve" not in data:
         return
     curves = distinct(data["curve"])
@@ -148,13 +152,15 @@ def _one_design(data: Data) -> None:
 
 
 def _with_gaps(x: np.ndarray, y: np.ndarray, after: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the points of a line, with a gap behind each row in `after`."""
+    """Return the points of a line. The line has a gap behind each point whose index is in `after`."""
     places = [i + 1 for i in after]
     return np.insert(x, places, np.nan), np.insert(y, places, np.nan)
 
 
 def _jump(ax: Axes, branch: _Branch, i: int, colour: str) -> None:
-    """Draw a light vertical arrow for a jump of a branch, halfway between the rows before and after the jump."""
+    """Draw a light vertical arrow where a branch jumps to a different motion, halfway between the rows before and after
+    the jump.
+    """
     x = 0.5 * (branch.x[i] + branch.x[i + 1])
     before, after = (x, branch.y[i]), (x, branch.y[i + 1])
     look = {"arrowstyle": "->", "color": colour, "linestyle": (0, (3, 3)), "alpha": 0.7, "shrinkA": 0, "shrinkB": 0}
@@ -162,8 +168,8 @@ def _jump(ax: Axes, branch: _Branch, i: int, colour: str) -> None:
 
 
 def _arrow_along(ax: Axes, branch: _Branch, colour: str, bands: list[tuple[float, float]]) -> None:
-    """Draw an arrowhead on the line of a branch. The arrowhead is in a bistable band, or after a third of the branch if
-    the response has no bistable band.
+    """Draw an arrowhead on the line of a branch. The arrowhead is in the widest bistable band. Without a bistable band,
+    the arrowhead is at a third of the branch's length.
     """
     count = len(branch.x)
     if count < 3:
@@ -187,7 +193,9 @@ def _arrow_along(ax: Axes, branch: _Branch, colour: str, bands: list[tuple[float
 
 
 def _mark_missing(ax: Axes, data: Data, x: Shown, names: np.ndarray) -> None:
-    """Draw marks above the axes, at values of x at which a branch has no periodic motion."""
+    """Draw marks at the upper edge of the axes, at those values of the parameter at which a branch has no periodic
+    motion.
+    """
     without = ~data.measured()
     shown = False
     for place, name in enumerate(("up", "down")):

@@ -30,30 +30,33 @@ def pareto(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw designs as points in the plane of two objectives, with the Pareto front: the designs that no other design
-    dominates.
+    """Draw designs as points in the plane of two objectives, and mark the Pareto front: the designs that no other
+    design dominates.
 
-    Designs without a periodic motion, or with a NaN among the objectives, are left out.
-    `flapwing.analysis.non_dominated` computes the front. With two objectives, a stepped line connects the designs of
-    the front. With more than two objectives, the designs of the front have rings.
+    A design is left out if it has no periodic motion, or if one of its objectives is NaN.
+    `flapwing.analysis.non_dominated` computes the front. Rings mark the designs on the Pareto front. If you give two
+    objectives, a stepped line also connects these designs.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        A table of results of any kind.
+        Results of any flap computation, with one row for each design.
     maximize, minimize : str or sequence of str
-        The objectives, at least two. The picture shows the first two objectives. If one of the first two objectives is
-        minimised, the minimised objective is on the horizontal axis. By default, the mean lift is maximised and the
-        mean power is minimised.
+        At least two measures whose values are to be maximised or minimised. The axes show the first measure that is
+        minimised and the first measure that is maximised. If all measures are minimised or all are maximised, the axes
+        show the first two measures. By default, the mean lift is maximised and the mean power is minimised.
     color : str, optional
-        A column that sets the colours of the points: numbers with a colour bar, words with a legend.
+        The column that sets the colours of the points. A colour bar explains the colours of numbers, and a legend
+        explains the colours of words.
     cmap : str, optional
-        A colour map of matplotlib for columns of numbers. The default of `cmap` is the colour map of `heatmap`.
+        A colour map of matplotlib, if `color` is a column of numbers. The default of `cmap` is the same as in
+        `flapwing.plot.heatmap`.
     where, **slices
-        The selection of rows, as for `response`. Unlike `response`, the picture has the designs at all values of the
-        axes that are not selected. This also applies if a grid combines a sample with an axis.
+        Values of columns that select rows, as in `flapwing.plot.response`. If you select no value of an axis, the
+        picture shows the designs at all values of this axis. The same rule applies to an axis that is combined with a
+        sample.
     legend, colorbar, ax
-        The legend, the colour bar and the axes, as for `response`.
+        These arguments have the same meaning as in `flapwing.plot.response`.
 
     Returns
     -------
@@ -62,8 +65,8 @@ def pareto(
     Raises
     ------
     ValueError
-        Raised if fewer than two objectives are given. Raised if a column or value is unknown. Raised if no design has
-        all objectives.
+        Raised if fewer than two objectives are given. Raised if a column or value is unknown. Raised if no design has a
+        value of every objective.
 
     Examples
     --------

@@ -36,48 +36,49 @@ def response(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw a measure against one parameter, with one line for each value of a second parameter (a family of responses).
+    """Draw a measure against one parameter, with one line for each value of a second parameter.
 
-    Rows without a periodic motion leave a gap in a line. Above the picture, each gap in a line has a mark in the colour
-    of the line.
+    A line has a gap at points without a periodic motion. Above the picture, marks in the colour of the line show these
+    points.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of `sweep`, `evaluate` or `respond`, or the path of a file of results. To compare designs, give
-        several results: a mapping of names to results, or a list. With several results, each design has one line.
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file of results. To compare designs, give the
+        results of each design: a mapping of names to results, or a list of results. The picture then has one line for
+        each design.
     y : str, optional
         The measure to draw. The default of `y` is the peak-to-peak stroke.
     x : str, optional
-        The parameter on the horizontal axis. The default of `x` is ``drive_frequency``, or the last axis of the grid if
-        ``drive_frequency`` does not vary.
+        The parameter on the horizontal axis. The default of `x` is ``drive_frequency``. If ``drive_frequency`` does not
+        vary, the default of `x` is the last axis of the grid.
     by : str, optional
-        The parameter that distinguishes the lines: each value of this parameter has one line. If the grid has two or
-        more axes, the default of `by` is the first axis of the grid that is not x. If several results are given, each
-        result has one line.
+        The picture has one line for each value of this parameter. If the grid has two or more axes, the default of `by`
+        is the first axis that is not on the horizontal axis. If you give several results, you cannot give `by`, because
+        the picture has one line for each of the results.
     where, **slices
-        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
-        values of the columns in the mapping `where`, or as keywords such as ``drive_voltage_pp="100 V"``. If an axis of
-        the grid is neither drawn nor selected, the picture has only the rows at the middle value of this axis. A
-        warning shows the middle value that was used.
+        Values of columns that select the rows to draw: numbers in SI units, text with units, or words. Give the values
+        in the mapping `where`, or as keyword arguments such as ``drive_voltage_pp="100 V"``. If you select no value of
+        an axis that is not drawn, the picture shows only the rows at the middle value of this axis. A warning shows the
+        middle value that was used.
     label : sequence of str, optional
-        The names in the legend, one for each result of a list. By default, the names are the numbers of the results in
-        the list.
+        If `table` is a list of results, the name of each result in the legend. By default, the names are the numbers of
+        the results in the list.
     legend : bool or str
-        If `legend` is False, the picture has no legend. Text such as ``"upper left"`` sets the place of the legend
-        inside the axes. By default, the legend is outside of the axes of a new figure. If `ax` is given, the legend is
-        inside the axes by default.
+        If `legend` is False, the picture has no legend. If `legend` is text such as ``"upper left"``, the legend is at
+        this position inside the axes. By default, the legend is outside of the axes of a new figure. If `ax` is given,
+        the legend is inside the axes by default.
     colorbar : bool or matplotlib Axes
         If `colorbar` is False, the picture has no colour bar. If `colorbar` is Axes, the colour bar is in these axes.
         By default, the colour bar is beside the picture, and the picture becomes narrower.
     ax : matplotlib Axes, optional
-        Axes for the picture. The figure of `ax` determines the style of the picture. Only labels and a colour bar are
-        drawn outside of `ax`. The default of `ax` is axes of a new figure.
+        Axes for the picture. If you give `ax`, the picture has the style of the existing figure, and only labels and a
+        colour bar are drawn outside of `ax`. By default, the picture is drawn in a new figure.
 
     Returns
     -------
     matplotlib Axes
-        The axes show parameters in readable units, which the labels of the axes contain.
+        The axes of the picture. Parameters are in readable units, which the labels of the axes contain.
 
     Raises
     ------
@@ -124,30 +125,31 @@ def response_panels(
     colorbar: bool | Axes = True,
     **slices: Any,
 ) -> Figure:
-    """Draw several measures against one parameter, in axes below each other. Each measure is drawn like a picture of
-    `response`.
+    """Draw several measures against one parameter, in axes below each other. Each measure is drawn in the same way as
+    by `flapwing.plot.response`.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        Results of `sweep`, `evaluate` or `respond`, or the path of a file of results. To compare designs, give
-        several results: a mapping of names to results, or a list. With several results, each design has one line.
+        Results of `sweep`, `evaluate` or `respond`, or the path of a file of results. To compare designs, give the
+        results of each design: a mapping of names to results, or a list of results. The picture then has one line for
+        each design.
     measures : sequence of str
         The measures to draw, from top to bottom.
     x : str, optional
-        The parameter on the horizontal axis. The default of `x` is ``drive_frequency``, or the last axis of the grid if
-        ``drive_frequency`` does not vary.
+        The parameter on the horizontal axis. The default of `x` is ``drive_frequency``. If ``drive_frequency`` does not
+        vary, the default of `x` is the last axis of the grid.
     by : str, optional
-        The parameter that distinguishes the lines: each value of this parameter has one line. If the grid has two or
-        more axes, the default of `by` is the first axis of the grid that is not x. If several results are given, each
-        result has one line.
+        The picture has one line for each value of this parameter. If the grid has two or more axes, the default of `by`
+        is the first axis that is not on the horizontal axis. If you give several results, you cannot give `by`, because
+        the picture has one line for each of the results.
     where, **slices
-        The selection of rows, as for `response`.
+        Values of columns that select rows, as in `flapwing.plot.response`.
     label : sequence of str, optional
-        The names in the legend, one for each result of a list. By default, the names are the numbers of the results in
-        the list.
+        If `table` is a list of results, the name of each result in the legend. By default, the names are the numbers of
+        the results in the list.
     legend, colorbar
-        The legend and the colour bar, as for `response`.
+        These arguments have the same meaning as in `flapwing.plot.response`.
 
     Returns
     -------
@@ -186,8 +188,8 @@ def response_panels(
 
 
 def _together(table: Any, label: Sequence[str] | None, by: str | None) -> tuple[Data, str | None]:
-    """Return results as one table, and the column whose values distinguish the lines. For several results, the lines
-    are distinguished by the names of the results.
+    """Return all results in one table, and the column whose values distinguish the lines of the picture. If `table`
+    contains several results, this column contains the names of the results.
     """
     designs = several(table, label)
     if designs is None:
@@ -200,7 +202,7 @@ def _together(table: Any, label: Sequence[str] | None, by: str | None) -> tuple[
 
 
 def _family(whole: Data, data: Data, measures: Sequence[str], x: str | None, by: str | None) -> Family:
-    """Return the lines of a picture of the measures `measures`."""
+    """Return the lines of a picture that shows the measures `measures`."""
     for name in measures:
         data.numbers(name)
     x = along(data, by) if x is None else x
@@ -221,7 +223,9 @@ def _family(whole: Data, data: Data, measures: Sequence[str], x: str | None, by:
 
 
 class Family:
-    """The lines of one picture. The rows and the colour of a line are the same for every measure."""
+    """The lines of one picture. If the picture shows several measures, a line has the same rows and the same colour for
+    each measure.
+    """
 
     def __init__(self, data: Data, whole: Data, x: str, by: str | None) -> None:
         self.data, self.x = data, data.shown(x)
@@ -233,8 +237,8 @@ class Family:
         self.colours = _style.shades(self.values, self.by is not None and self.by.text)
 
     def _ordered(self, rows: np.ndarray) -> np.ndarray:
-        """Return the row numbers of one line in rising order of x. The number -1 stands for a point of the grid without
-        a row.
+        """Return the numbers of the rows of one line, in rising order of the parameter on the horizontal axis. The
+        number -1 stands for a point of the grid that has no row.
         """
         xs = self.data[self.x.name]
         rows = rows[np.argsort(xs[rows], kind="stable")]
@@ -267,8 +271,8 @@ class Family:
         ax.margins(x=0.02)
 
     def mark(self, ax: Axes) -> None:
-        """Draw marks above the axes at the values of x for which rows of results have no measures. Each line has a
-        separate row of marks.
+        """Draw marks above the axes at points without a periodic motion. The marks of each line of the picture are at a
+        separate height.
         """
         lines = self._not_periodic()
         if not lines:
@@ -292,8 +296,8 @@ class Family:
         )
 
     def mark_inside(self, ax: Axes) -> None:
-        """Draw the marks of `mark` inside the axes, along the lower edge, and extend the limits of the axes for the
-        marks.
+        """Draw marks for points without a periodic motion inside the axes, along the lower edge. The method extends the
+        limits of the axes to make room for the marks.
         """
         lines = self._not_periodic()
         if not lines:
@@ -305,7 +309,9 @@ class Family:
             self._strokes(ax, rows, (place + 0.75) * step, colour)
 
     def _not_periodic(self) -> list[tuple[np.ndarray, Any]]:
-        """For each line with rows that have no measures, return these rows and the colour of the line."""
+        """Return a list of lines that have points without a periodic motion. An entry contains the numbers of the rows
+        of these points, and the colour of the line.
+        """
         without = ~self.data.measured()
         marked = [rows[(rows >= 0) & without[rows]] for rows in self.rows]
         return [(rows, colour) for rows, colour in zip(marked, self.colours) if rows.size]
@@ -315,7 +321,9 @@ class Family:
         _style.marks(ax, self.x.values[rows], height, label="_not periodic", **look, **options)
 
     def explain(self, axes: list[Axes], given: bool, legend: bool | str, colorbar: bool | Axes) -> None:
-        """Draw a legend for the lines, or a colour bar if the lines stand for many different numbers."""
+        """Draw a legend that explains the lines. If the lines show many values of a parameter, draw a colour bar
+        instead.
+        """
         handles: list[Any] = []
         if given and self._not_periodic():
             look: Any = {"marker": "|", "linestyle": "none", "color": _style.ink(axes[0])}
@@ -355,7 +363,7 @@ class Family:
 
 
 def along(data: Data, by: str | None) -> str:
-    """Return the default parameter for the horizontal axis."""
+    """Return the parameter that is on the horizontal axis by default."""
     axes = [name for name in data.axes() if by is None or name != data.axis(by)]
     if "drive_frequency" in data and ("drive_frequency" in axes or not axes):
         return "drive_frequency"
@@ -366,7 +374,9 @@ def along(data: Data, by: str | None) -> str:
 
 
 def _beside(data: Data, x: str) -> str | None:
-    """Return the first axis of the grid that is not x. Return None if x is the only axis of the grid."""
+    """Return the default parameter that distinguishes the lines: the first axis of the grid that is not on the
+    horizontal axis. Return None if there is no such axis.
+    """
     left = [name for name in data.axes() if name != data.axis(x)]
     if x not in data.parameters():
         return None
@@ -374,7 +384,9 @@ def _beside(data: Data, x: str) -> str | None:
 
 
 def _alone(ys: np.ndarray) -> np.ndarray:
-    """Return a mask, which is True for values without a neighbour. A line does not show values without a neighbour."""
+    """Return a mask that is True for a value whose neighbours are missing. A line cannot show such a value, so the
+    value gets a marker.
+    """
     there = np.isfinite(ys)
     before = np.concatenate([[False], there[:-1]])
     after = np.concatenate([there[1:], [False]])

@@ -1,4 +1,4 @@
-"""Scales of axes and of colours."""
+"""Logarithmic ticks of axes, and colours that represent numbers."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class Colours(NamedTuple):
     signed: bool
 
     def bar(self, ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes, label: str) -> None:
-        """Draw the colour bar of the numbers, with a line at zero if the numbers have both signs."""
+        """Draw a colour bar. If the numbers have both signs, the colour bar has a line at zero."""
         bar = _style.colour_bar(ax, mappable, wanted, label=label, extend=self.extend)
         if bar is None:
             return
@@ -48,10 +48,10 @@ def colours(
     vmax: float | None = None,
     log: bool = False,
 ) -> Colours:
-    """Return the colours of numbers from `vmin` to `vmax`. By default, `vmin` is the smallest and `vmax` is the largest
-    of the numbers.
+    """Return the colours that represent numbers from `vmin` to `vmax`. By default, `vmin` is the smallest and `vmax` is
+    the largest number in `values`.
 
-    Without a `cmap`, numbers of both signs get a diverging map whose middle is zero.
+    If `cmap` is None and the numbers have both signs, the colour map is a diverging colour map whose middle is zero.
     """
     finite = values[np.isfinite(values)]
     smallest, largest = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
@@ -74,8 +74,9 @@ def _diverging(low: float, high: float) -> Colormap:
 
 
 def log_ticks(low: float, high: float) -> list[float]:
-    """Return round numbers for the ticks of a logarithmic scale. A short scale without a power of ten also has
-    ticks."""
+    """Return round numbers for the ticks of a logarithmic scale. If the scale is short and contains no power of ten,
+    other round numbers get ticks.
+    """
     subs = [1.0, 2.0, 5.0] if high / low < 300 else [1.0]
     if high / low < 8:
         subs = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0]
@@ -83,7 +84,7 @@ def log_ticks(low: float, high: float) -> list[float]:
 
 
 def show_log_ticks(axis: Any, low: float, high: float) -> None:
-    """Put ticks at round numbers of a logarithmic axis, and label them with plain numbers."""
+    """Put ticks at round numbers of a logarithmic axis, with labels such as 200 instead of powers of ten."""
     axis.set_major_locator(FixedLocator(log_ticks(low, high)))
     axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
     axis.set_minor_formatter(NullFormatter())

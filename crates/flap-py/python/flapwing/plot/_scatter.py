@@ -1,4 +1,4 @@
-"""A picture of designs as points in the plane of two measures, coloured by a third measure."""
+"""A picture of designs as points in the plane of two measures, whose colours show a third measure."""
 
 from __future__ import annotations
 
@@ -29,28 +29,30 @@ def scatter(
     ax: Axes | None = None,
     **slices: Any,
 ) -> _style.Drawn:
-    """Draw designs, for example of a sample, as points in the plane of two measures, coloured by a third measure.
+    """Draw designs as points in the plane of two measures. The colour of a point shows a third measure.
 
     Designs without a periodic motion are left out.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        A table of results of any kind.
+        Results of any flap computation, with one row for each design.
     x, y : str, optional
         Columns of numbers. The default of `x` is the mean power, and the default of `y` is the mean lift. If the table
-        lacks power or lift, a different measure of the table is drawn.
+        has no mean power or no mean lift, flap chooses a different measure.
     color : str, optional
-        A column that sets the colours of the points: numbers with a colour bar, words with a legend. The default of
-        `color` is the peak-to-peak stroke, or a different measure if the table has no stroke.
+        The column that sets the colours of the points. A colour bar explains the colours of numbers, and a legend
+        explains the colours of words. The default of `color` is the peak-to-peak stroke. If the table has no
+        peak-to-peak stroke, flap chooses a different measure.
     cmap : str, optional
-        A colour map of matplotlib for columns of numbers. The default of `cmap` is the colour map of `heatmap`.
+        A colour map of matplotlib, if `color` is a column of numbers. The default of `cmap` is the same as in
+        `flapwing.plot.heatmap`.
     where, **slices
-        The selection of rows, as for `response`. Unlike `response`, the picture has the designs at all values of the
-        axes of a grid. A grid can also combine a sample with an axis. If this axis is not `x`, `y` or `color`, the
-        picture has only the rows at the middle value of the axis.
+        Values of columns that select rows, as in `flapwing.plot.response`. In results of a grid without a sample, all
+        values of an axis are used if you select no value. If a sample is combined with an axis that is not drawn and
+        you select no value, only the axis's middle value is used.
     legend, colorbar, ax
-        The legend, the colour bar and the axes, as for `response`.
+        These arguments have the same meaning as in `flapwing.plot.response`.
 
     Returns
     -------
@@ -59,7 +61,7 @@ def scatter(
     Raises
     ------
     ValueError
-        Raised if a column or value is unknown, or no design has values in the columns x and y.
+        Raised if a column or value is unknown, or if no design has values of both measures on the axes.
 
     Examples
     --------
@@ -96,8 +98,8 @@ def scatter(
 
 
 def _third(data: Data, taken: list[str]) -> str | None:
-    """Return the default measure for colours, which differs from the measures on the two axes. Return None if the table
-    has no third measure.
+    """Return the measure that sets the colours by default. This measure differs from the measures on the two axes.
+    Return None if the table contains no further measure.
     """
     try:
         return data.usual("motion", "color", taken)
@@ -114,7 +116,7 @@ def points(
     cmap: str | Colormap | None,
     colorbar: bool | Axes,
 ) -> float:
-    """Draw designs as points, coloured by a column, and return the size of these points."""
+    """Draw designs as points with colours that show the values in a column, and return the size of the points."""
     size = _style.size(0.62 if len(data) <= 2000 else 0.4)
     look: dict[str, Any] = {"s": size**2, "linewidths": 0, "alpha": 0.9, "rasterized": True}
     if color is None:

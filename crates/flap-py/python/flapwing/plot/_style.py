@@ -1,4 +1,6 @@
-"""The style of pictures. Settings of matplotlib are changed only while a picture is drawn, and restored afterwards."""
+"""The style of pictures. The settings of matplotlib are changed only while flap draws a picture, and are restored
+afterwards.
+"""
 
 from __future__ import annotations
 
@@ -78,26 +80,26 @@ NARROW = 5.0
 def style(
     *, width: float | str | None = None, height: float | str | None = None, font_size: float = 8.0
 ) -> Iterator[None]:
-    """Set the size of pictures and of the letters in pictures, for a paper or for slides.
+    """Set the size of pictures and of the letters in pictures, for example for a paper or for slides.
 
-    The settings apply to figures that are drawn and saved in the ``with`` block. The settings of `style` are settings
-    of matplotlib, such as ``figure.figsize`` and ``font.size``, so that `style` also changes your own figures.
+    The settings apply to figures that are drawn and saved in the ``with`` block. `style` sets settings of matplotlib,
+    such as ``figure.figsize`` and ``font.size``, so figures that you draw with matplotlib also change.
 
     Parameters
     ----------
     width, height : float or str, optional
         Size of a figure: numbers in inches, or text such as ``"3.3 in"``, ``"84 mm"`` or ``"8.4 cm"``. The default of
-        the width is 6.4 inches. The default of the height is 1 inch plus 0.42 times the width. The height of a figure
-        with several axes below each other grows with the number of axes. If both width and height are omitted, figures
-        have flap's default sizes.
+        the width is 6.4 inches. The default of the height is 1 inch plus 0.42 times the width. If a figure has several
+        axes below each other, the figure is higher. If you give neither `width` nor `height`, flap's functions use
+        their default sizes.
     font_size : float, optional
-        Size of the letters (points). If the letters are smaller than 9.5 points, lines and markers are thinner. The
-        default of `font_size` is 8 points.
+        Size of the letters (points). If the letters are smaller than 9.5 points, lines are thinner and markers are
+        smaller. The default of `font_size` is 8 points.
 
     Returns
     -------
     context manager
-        A context manager, which restores the settings at the end of the ``with`` block.
+        A context manager that restores the settings at the end of the ``with`` block.
 
     Raises
     ------
@@ -143,7 +145,7 @@ def style(
 
 
 def _inches(name: str, length: Any) -> float:
-    """Return a length in inches."""
+    """Return the length that an argument gives as a number or as text, in inches."""
     allowed = 'it must be a number of inches, or text such as "3.3 in", "84 mm" or "8.4 cm"'
     if isinstance(length, str):
         found = re.fullmatch(r"\s*([0-9.]+)\s*([a-z]+)\s*", length)
@@ -161,8 +163,8 @@ def _inches(name: str, length: Any) -> float:
 def applied(ax: Axes | None = None) -> Iterator[None]:
     """Apply the style of flap's pictures while a picture is drawn.
 
-    Settings of matplotlib that the user has changed are kept. A setting counts as changed if its value differs from the
-    default of matplotlib. Axes that the user gives keep the style of the user's figure.
+    A setting of matplotlib is not changed if the user has set it to a value that differs from the default of
+    matplotlib. Axes that the user gives keep the style of their figure.
     """
     own = {} if ax is not None else {name: value for name, value in _SETTINGS.items() if _is_default(name)}
     before = plt.get_fignums()
@@ -180,7 +182,7 @@ def applied(ax: Axes | None = None) -> Iterator[None]:
 
 
 def is_narrow() -> bool:
-    """Return True if new figures are as narrow as a column of a paper."""
+    """Return True if the user's settings make new figures as narrow as a column of a paper."""
     return not _is_default("figure.figsize") and bool(mpl.rcParams["figure.figsize"][0] < NARROW)
 
 
@@ -190,7 +192,9 @@ def _is_default(name: str) -> bool:
 
 
 def ink(ax: Axes) -> Any:
-    """Return the colour of texts and thin lines: the user's colour of labels, or the colour of flap by default."""
+    """Return the colour of texts and thin lines: the colour in the user's settings of matplotlib, or by default flap's
+    dark grey.
+    """
     for colour in (ax.xaxis.label.get_color(), mpl.rcParams["text.color"]):
         if not same_color(colour, "black"):
             return colour
@@ -198,18 +202,18 @@ def ink(ax: Axes) -> Any:
 
 
 def width(factor: float) -> float:
-    """Return a line width, given as a multiple of the line width in the user's settings."""
+    """Return a line width in points: `factor` times the line width in the user's settings."""
     return factor * float(mpl.rcParams["lines.linewidth"])
 
 
 def size(factor: float) -> float:
-    """Return a marker size, given as a multiple of the marker size in the user's settings."""
+    """Return a marker size in points: `factor` times the marker size in the user's settings."""
     return factor * float(mpl.rcParams["lines.markersize"])
 
 
 def new_figure(width: float = 6.4, height: float = _HEIGHT) -> Figure:
-    """Return a new figure whose layout leaves room for the labels. If the user has changed the size of figures in
-    matplotlib, the figure has the changed width. A figure with one Axes object also has the changed height.
+    """Return a new figure whose layout leaves room for the labels. If the user has set a size of figures in matplotlib,
+    the new figure has this width. A figure with one Axes object also has the height that the user has set.
     """
     if not _is_default("figure.figsize"):
         sides = mpl.rcParams["figure.figsize"]
@@ -218,12 +222,12 @@ def new_figure(width: float = 6.4, height: float = _HEIGHT) -> Figure:
 
 
 def axes_of(ax: Axes | None, width: float = 6.4, height: float = _HEIGHT) -> Drawn:
-    """Return the given axes, or axes of a new figure."""
+    """Return `ax`, or axes in a new figure if `ax` is None."""
     return cast("Drawn", new_figure(width, height).add_subplot() if ax is None else ax)
 
 
 def figure_of(ax: Axes) -> Figure:
-    """Return the figure of axes."""
+    """Return the figure that contains the given axes."""
     figure: Any = ax.figure
     while not isinstance(figure, Figure):  # a part of a figure
         figure = figure.figure
@@ -243,8 +247,8 @@ def legend(
     outside: Mapping[str, Any] = _ABOVE,
     **options: Any,
 ) -> None:
-    """Draw a legend if `wanted` is true: outside of new axes, or inside given axes. If `wanted` is a place, the legend
-    is inside the axes in all cases.
+    """Draw a legend, unless `wanted` is False. The legend is outside of axes that flap has made, and inside axes that
+    the user gives. If `wanted` is a position such as ``"upper left"``, the legend is always inside the axes.
     """
     if wanted is False:
         return
@@ -257,8 +261,8 @@ def legend(
 
 
 def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True, **options: Any) -> Any:
-    """Draw a colour bar for a map or for coloured points: beside `ax`, or in the axes `wanted`. If `wanted` is False,
-    draw no colour bar.
+    """Draw a colour bar for a map or for coloured points. If `wanted` is Axes, the colour bar is drawn in these axes,
+    otherwise beside `ax`. If `wanted` is False, no colour bar is drawn.
     """
     if wanted is False:
         return None
@@ -273,8 +277,9 @@ def colour_bar(ax: Axes | list[Axes], mappable: Any, wanted: bool | Axes = True,
 
 
 def _fit_label(bar: Any) -> None:
-    """If the label of a colour bar is longer than the bar, break the label into lines or make the letters of the label
-    smaller."""
+    """If the label of a colour bar is longer than the bar, divide the label into several lines, or make its letters
+    smaller.
+    """
     if not bar.ax.yaxis.label.get_text() or bar.orientation != "vertical":
         return
     figure_of(bar.ax).draw_without_rendering()
@@ -283,8 +288,9 @@ def _fit_label(bar: Any) -> None:
 
 
 def _shorten(label: Any, side: str, room: float) -> None:
-    """Break a text into lines, or make the letters smaller, until the width or the height of the text fits into `room`
-    (pixels)."""
+    """Divide a label into several lines, or make its letters smaller, until its size is at most `room` (pixels). `side`
+    is ``"width"`` or ``"height"``.
+    """
     text, letters = label.get_text(), label.get_fontsize()
     if getattr(label.get_window_extent(), side) <= room:
         return
@@ -297,7 +303,7 @@ def _shorten(label: Any, side: str, room: float) -> None:
 
 
 def _fit_labels(figure: Figure) -> None:
-    """Shorten the labels that are longer than the axes' part of the figure."""
+    """Shorten the labels of axes that are longer than the room that the figure has for the axes."""
     figure.draw_without_rendering()
     for ax in figure.axes:
         place = ax.get_subplotspec()
@@ -317,7 +323,9 @@ def _fit_labels(figure: Figure) -> None:
 
 
 def fitted(ax: Any, draw: Callable[[int], Legend], columns: int) -> Legend:
-    """Draw a legend above axes, or in a part of a figure, with as many columns as fit into the width of the axes."""
+    """Draw a legend with at most `columns` columns. If the legend is wider than the axes or the part of the figure, the
+    function reduces the number of columns.
+    """
     part = ax.figure if isinstance(ax, Axes) else ax
     legend = draw(columns)
     if legend.get_window_extent().width <= 0.7 * part.bbox.width:
@@ -341,20 +349,23 @@ def fitted(ax: Any, draw: Callable[[int], Legend], columns: int) -> Legend:
 
 
 def marks(ax: Axes, x: np.ndarray, height: float, **options: Any) -> None:
-    """Draw short vertical lines at values of x, all at the same `height`, which is a fraction of the height of the
-    axes."""
+    """Draw short vertical lines at the horizontal positions `x`. All lines have the same vertical position `height`, as
+    a fraction of the height of the axes.
+    """
     heights = np.full(len(x), height)
     ax.plot(x, heights, linestyle="none", marker="|", transform=ax.get_xaxis_transform(), **options)
 
 
 def series() -> list[Any]:
-    """Return the colours of lines. If the user changed `axes.prop_cycle`, return the colours of this cycle."""
+    """Return the colours for successive lines. If the user has changed the setting `axes.prop_cycle` of matplotlib,
+    return the colours in this setting.
+    """
     cycle = [] if _is_default("axes.prop_cycle") else mpl.rcParams["axes.prop_cycle"].by_key().get("color", [])
     return list(cycle) or COLOURS
 
 
 def further_shades(ax: Axes | None, count: int) -> list[Any]:
-    """Return colours for new lines, which differ from the colours of the lines that the axes already have."""
+    """Return colours for new lines that differ from the colours of the existing lines in the axes."""
     every = series()
     taken = [] if ax is None else [line.get_color() for line in ax.lines]
     free = [colour for colour in every if not any(same_color(colour, other) for other in taken)] or every
@@ -362,7 +373,9 @@ def further_shades(ax: Axes | None, count: int) -> list[Any]:
 
 
 def shades(values: Sequence[Any] | np.ndarray, text: bool) -> list[Any]:
-    """Return a colour for each value: ordered colours for numbers, distinct colours for words."""
+    """Return a colour for each value. Numbers get colours from a colour map, and words get colours that are easy to
+    distinguish.
+    """
     if text:
         colours = series()
         return [colours[i % len(colours)] for i in range(len(values))]

@@ -1,4 +1,4 @@
-"""A picture of the changes of a measure with each parameter, as bars."""
+"""A picture that shows by bars how strongly each parameter changes a measure."""
 
 from __future__ import annotations
 
@@ -29,35 +29,38 @@ def tornado(
     ax: Axes | None = None,
     **fixed: Any,
 ) -> _style.Drawn:
-    """Draw the sensitivity of a measure to each parameter as a bar. The longest bar is at the top.
+    """Draw a bar for each parameter that shows the sensitivity of a measure to this parameter. The longest bar is at
+    the top.
 
-    If `design` is a preset, each parameter of the preset is changed slightly, and bars show the changes of the measure.
-    If `design` is a sample, bars show the rank correlation (Spearman) of each parameter with the measure, from -1 to 1.
+    If `design` is a preset, flap changes each parameter of the preset slightly, and the bars show the changes of the
+    measure. If `design` contains results of a sample, the bars show the rank correlation (Spearman) of each parameter
+    with the measure.
 
     Parameters
     ----------
     design : str; sequence of Sensitivity; Table, data frame, mapping of columns, or path
-        A preset, the result of `flapwing.analysis.sensitivities`, or the results of a sample. The function runs points
-        of the model only if `design` is a preset.
+        A preset, the result of `flapwing.analysis.sensitivities`, or the results of a sample. `tornado` runs
+        simulations only if `design` is a preset.
     measure, parameters, change, **fixed
-        For a preset, the arguments of `flapwing.analysis.sensitivities`. For a sample, the arguments of
-        `flapwing.analysis.rank_correlations`, which has no argument `change`.
+        If `design` is a preset, `tornado` passes these arguments to `flapwing.analysis.sensitivities`. If `design`
+        contains results of a sample, `tornado` passes these arguments except `change` to
+        `flapwing.analysis.rank_correlations`.
     top : int
         The largest number of parameters to draw.
     legend, ax
-        The legend and the axes, as for `response`.
+        These arguments have the same meaning as in `flapwing.plot.response`.
 
     Returns
     -------
     matplotlib Axes
-        For a preset, the horizontal axis is the change of the measure in per cent of the measure's value for the
-        design. For a sample, the horizontal axis is the correlation.
+        The axes of the picture. For a preset, the horizontal axis shows the change of the measure in per cent of its
+        value for the unchanged design. For a sample, the horizontal axis shows the rank correlation.
 
     Raises
     ------
     ValueError
         Raised if an argument is invalid (see `sensitivities` and `rank_correlations`). Raised if the list of
-        sensitivities is empty, or the measure is zero for the design.
+        sensitivities is empty, or if the measure is zero for the unchanged design.
     """
     if _is_table(design):
         return _correlations(rank_correlations(design, measure, parameters, **fixed), top, ax)
@@ -123,7 +126,7 @@ def tornado(
 
 
 def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _style.Drawn:
-    """Draw rank correlations as bars, with the largest correlation at the top."""
+    """Draw rank correlations as bars. The correlation with the largest absolute value is at the top."""
     shown = found[:top]
     sizes = np.array([each.correlation for each in shown])
     places = np.arange(len(shown))
@@ -156,23 +159,24 @@ def _correlations(found: list[RankCorrelation], top: int, ax: Axes | None) -> _s
 
 
 def _is_table(design: Any) -> bool:
-    """Return True if the argument is a table of results, or the path of a file whose name has an ending such as
-    ``.csv``."""
+    """Return True if the argument is a table of results, or the path of a file. Text counts as the path of a file if it
+    has an ending such as ``.csv``.
+    """
     if isinstance(design, str):
         return bool(os.path.splitext(design)[1])
     return isinstance(design, os.PathLike) or not isinstance(design, Sequence)
 
 
 def _named(each: Sensitivity) -> str:
-    """Return the name of a parameter with the value in the design, as text."""
+    """Return a text with the name of a parameter and its value in the design."""
     factor, unit = _labels.readable([each.value], each.unit)
     value = f"{_labels.number(each.value * factor)} {unit}".strip()
     return f"{_labels.words(each.parameter, each.unit)}, {value}"
 
 
 def _names_of_changes(shown: Sequence[Sensitivity]) -> tuple[str, str]:
-    """Return the names of the decrease and the increase of parameters for the legend. If the changes are equal for all
-    parameters, and all values are positive, the names contain the sizes of the changes.
+    """Return two texts for the legend, for the lower and for the upper values of the parameters. If all relative
+    changes are equal and all parameters are positive, the texts contain the change, such as "+5 %".
     """
     sizes = {
         round(abs(end - each.value) / abs(each.value), 9)

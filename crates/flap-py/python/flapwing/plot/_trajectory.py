@@ -1,4 +1,4 @@
-"""A picture of a motion over time, and of the phase portrait of the motion."""
+"""A picture of a motion over time, with phase portraits of the motion."""
 
 from __future__ import annotations
 
@@ -51,43 +51,46 @@ def trajectory(
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Figure | Axes:
-    """Draw signals over time, and draw phase portraits beside the signals. A phase portrait shows the rate of an angle
-    against the angle.
+    """Draw columns of a trajectory over time, and phase portraits beside them. A phase portrait shows the rate of
+    change of an angle against the angle.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        A trajectory from `flapwing.trajectory` or ``flap run --trajectory``. To compare designs, give several
-        trajectories: a mapping of names to trajectories, or a list. If you give several trajectories, all lines of a
-        design have the same colour.
+        A trajectory from `flapwing.trajectory` or ``flap run --trajectory``. To compare designs, give a trajectory of
+        each design: a mapping of names to trajectories, or a list of trajectories. All lines of a design then have the
+        same colour.
     signals : str or sequence of str
-        The columns to draw over time. Columns with the same unit are drawn in the same axes. With several trajectories,
-        each column has separate axes. The default of `signals` is stroke and pitch.
+        The columns to draw over time. If you give one trajectory, columns with the same unit are drawn in the same
+        axes. If you give several trajectories, each column has separate axes. By default, stroke and pitch are drawn.
     portrait : sequence of str, optional
-        The columns with a phase portrait. The default of `portrait` is stroke and pitch, if these columns are among the
-        signals. If the table has no column for a rate, the rate is computed from the samples.
+        The columns for which a phase portrait is drawn. By default, these columns are stroke and pitch, if they are
+        among the columns in `signals`. If the table has no column for the rate of an angle, the rate is computed by
+        finite differences.
     time : str
-        The column of the time. A column without a unit is in seconds.
+        The column that contains the time. If the name of this column has no unit, the time is in seconds.
     label : str or sequence of str, optional
-        The name of the motion in the legend, or the names of the motions of a list. By default, the second and later
-        motions have numbers as names.
+        The name of the trajectory in the legend. If `table` is a list of trajectories, give a list of names. By
+        default, the second and later trajectories have names with numbers.
     legend
-        The legend, as for `response`.
+        This argument has the same meaning as in `flapwing.plot.response`.
     ax : matplotlib Axes, optional
-        Axes for signals of one unit, without a portrait. If several trajectories are given, the axes can have only one
-        signal. If `ax` already contains motions, the colours continue and the legend has all lines.
+        Axes in which the columns are drawn over time, without phase portraits. All columns in `signals` must have the
+        same unit. If you give several trajectories, you can draw only one column in `ax`. If `ax` already contains
+        lines, new lines get different colours, and the legend contains all lines.
 
     Returns
     -------
     matplotlib Figure, or Axes if `ax` is given
-        The axes of the figure are first the signals, from top to bottom, followed by the phase portraits.
+        The list ``figure.axes`` contains the axes over time, from top to bottom, and then the phase portraits.
 
     Raises
     ------
     ValueError
         Raised if a column is unknown. Raised if the number of names differs from the number of trajectories. Raised if
-        `ax` is given, but the signals have several units, or phase portraits are requested. Raised if the motions that
-        `ax` already contains have a different unit. Raised if a phase portrait is drawn and `time` has no unit of time.
+        you give `ax` and the columns in `signals` have several units, or if you give `ax` and `portrait`. Raised if
+        `ax` already contains motions with a different unit. Raised if a phase portrait is drawn and the unit of the
+        column `time` is not a unit of time.
 
     Examples
     --------
@@ -183,7 +186,9 @@ def trajectory(
 
 
 def _earlier(ax: Axes, unit: str) -> list[str]:
-    """Return the label of the vertical axis, if the axes already have motions in the unit `unit`."""
+    """Return a list with the label of the vertical axis, without the unit. Return an empty list if the axes contain no
+    lines. Raise ValueError if the axes contain motions with a unit that differs from `unit`.
+    """
     text = ax.get_ylabel()
     if not text or not ax.lines:
         return []
@@ -196,21 +201,27 @@ def _earlier(ax: Axes, unit: str) -> list[str]:
 
 
 def _factor(ax: Axes, time: Shown) -> float:
-    """Return the factor from the displayed unit of time to the unit of the motions that are already in the axes."""
+    """Return the factor from the unit in which flap would show the time to the unit of the motions that the axes
+    already contain.
+    """
     sizes = {"s": 1.0, "ms": 1e3, "µs": 1e6}
     there = [unit for unit in sizes if ax.get_xlabel() == _labels.titled(time.words, unit)]
     return sizes[there[0]] / sizes[time.unit] if there and time.unit in sizes else 1.0
 
 
 def _numbered(label: str, ax: Axes) -> str:
-    """Return a label for a motion. The label differs from the labels of all lines in the axes."""
+    """Return a label for a new line that differs from the labels of all lines in the axes. If `label` exists, the new
+    label is `label` with a number.
+    """
     taken = [line.get_label() for line in ax.lines]
     numbers = (number for number in range(2, len(taken) + 2) if f"{label} ({number})" not in taken)
     return f"{label} ({next(numbers)})" if label in taken else label
 
 
 def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
-    """Return axes over time, from top to bottom, and the axes of phase portraits beside the axes over time."""
+    """Return the axes of a new figure: first the axes over time, from top to bottom, then the axes of the phase
+    portraits.
+    """
     rows = max(signals, portraits)
     height = 1.0 + 1.9 * rows
     if not portraits:
@@ -232,8 +243,9 @@ def _layout(signals: int, portraits: int) -> tuple[list[Axes], list[Axes]]:
 
 
 def _rate(data: Data, name: str, t: np.ndarray, shown: Shown) -> tuple[np.ndarray, str]:
-    """Return the rate of a signal and the unit of the rate. If the column of the rate is missing, the rate is computed
-    from the samples."""
+    """Return the rate of change of a column, and the unit of the rate. If the table has no column for the rate of
+    change, the rate is computed by finite differences.
+    """
     values = data.numbers(name)
     if data.unit(name) == "deg":
         stem = name[: -len("_deg")] if name.endswith("_deg") else name
@@ -245,8 +257,9 @@ def _rate(data: Data, name: str, t: np.ndarray, shown: Shown) -> tuple[np.ndarra
 
 
 def _common(words: list[str], unit: str) -> str:
-    """Return the label of an axis with several signals: "Angle" for degrees, up to two names of signals, or the last
-    word of all names.
+    """Return the label of a vertical axis that shows several columns. The label is "Angle" for degrees, or the names of
+    two columns. For more columns, the label is the last word of their names if this word is the same in all names,
+    otherwise "Value".
     """
     if unit == "°":
         return "Angle"
@@ -257,7 +270,7 @@ def _common(words: list[str], unit: str) -> str:
 
 
 def _direction(ax: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
-    """Draw an arrow along the curve of a phase portrait, after a third of the first cycle."""
+    """Draw an arrow that shows the direction of a phase portrait's curve, at a twelfth of the samples."""
     i = max(1, len(x) // 12)
     if i + 1 < len(x):
         ax.annotate(

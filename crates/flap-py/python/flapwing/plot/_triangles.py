@@ -1,4 +1,6 @@
-"""Maps of a measure at points that form no grid, with coloured triangles between the points."""
+"""Maps that show a measure by colours if the points do not form a grid. The maps consist of coloured triangles between
+the points.
+"""
 
 from __future__ import annotations
 
@@ -24,8 +26,9 @@ _MARKERS = {"subharmonic": "+", "unsettled": "x", "diverged": "1", "step_limit":
 
 
 def form_no_grid(data: Data, x: str, y: str) -> bool:
-    """Return True if the values of the parameters are sampled or refined, or if most cells of a map would have no
-    row."""
+    """Return True if a parameter is sampled, if rows lie between the values of an axis, or if most cells of a map would
+    be empty.
+    """
     if is_text(data[x]) or is_text(data[y]) or data.followed() in (x, y):
         return False
     if not (data.on_a_grid(x) and data.on_a_grid(y)):
@@ -37,7 +40,9 @@ def form_no_grid(data: Data, x: str, y: str) -> bool:
 
 
 class Points:
-    """Points in the plane of two parameters, and the triangles between the points."""
+    """A map of a measure for points that do not form a grid, with dots at the points and coloured triangles between the
+    points.
+    """
 
     def __init__(self, data: Data, x: str, y: str, scales: tuple[str | None, str | None], values: np.ndarray) -> None:
         self.x, self.y = data.shown(x), data.shown(y)
@@ -65,7 +70,7 @@ class Points:
         self.mesh = Triangulation(self.x.values, self.y.values, mesh.triangles, flat | unknown)
 
     def draw(self, ax: Axes, colours: _scales.Colours) -> Any:
-        """Draw the triangles and the points, and return the coloured triangles."""
+        """Draw the coloured triangles and the points, and return the points for the colour bar."""
         values = np.nan_to_num(self.values)
         there = np.isfinite(self.values)
         look: Any = {"cmap": colours.cmap, "norm": colours.norm}
@@ -87,7 +92,7 @@ class Points:
         )
 
     def mark_missing(self, ax: Axes, missing: Mapping[str, np.ndarray]) -> list[Line2D]:
-        """Mark the points without a value, and return the legend entries."""
+        """Draw markers at the points without a value, and return the entries of the legend for these markers."""
         entries = []
         for status, mask in missing.items():
             look: Any = {"marker": _MARKERS.get(status, "x"), "linestyle": "none", "color": _style.ink(ax)}
@@ -96,7 +101,7 @@ class Points:
         return entries
 
     def finish(self, ax: Axes) -> None:
-        """Label the axes of the map, and leave room around the points."""
+        """Set the labels, the scales and the limits of the map's axes."""
         for shown, log, which in zip((self.x, self.y), self.logs, "xy"):
             low, high = float(shown.values.min()), float(shown.values.max())
             if log:
@@ -107,6 +112,6 @@ class Points:
             ax.set(**{f"{which}label": shown.label, f"{which}lim": ends})
 
     def best(self, smallest: bool) -> tuple[int, tuple[float, float]]:
-        """Return the row with the best value of the measure, and the place of this row in the map."""
+        """Return the number of the row with the best value of the measure, and the position of this row in the map."""
         row = int(np.nanargmin(self.values) if smallest else np.nanargmax(self.values))
         return row, (float(self.x.values[row]), float(self.y.values[row]))

@@ -1,4 +1,4 @@
-"""One cycle of the wing, as an animation."""
+"""An animation of one cycle of the motion of a wing."""
 
 from __future__ import annotations
 
@@ -37,48 +37,51 @@ def wing_path(
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Animation:
-    """Animate the last cycle of a motion: the chord of the wing, seen from the wing's tip, moves along the stroke.
+    """Animate the last cycle of a motion. The animation shows the chord of the wing from the wing's tip, while the
+    chord moves along the stroke.
 
-    A dot marks the leading edge, at the upper edge of the wing, and the line of the chord ends at the trailing edge.
-    The length of the arrow shows the lift. The arrow points down if the lift is negative. Below the wing, curves show
-    stroke and pitch over the cycle. Keep the returned `Animation` until you have saved or shown the animation:
-    ``plot.wing_path(trajectory).save("cycle.gif")``.
+    A line shows the chord from the leading edge, which is a dot at the upper edge of the wing, to the trailing edge.
+    The length of an arrow shows the lift. If the lift is negative, the arrow points down. Below the wing, curves show
+    stroke and pitch over the cycle. Store the returned `Animation` in a variable until you have saved or shown the
+    animation: ``plot.wing_path(trajectory).save("cycle.gif")``.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
-        A trajectory with the columns ``time_s``, ``stroke_deg`` and ``pitch_deg``, of at least one cycle, with equally
-        spaced samples.
+        A trajectory of at least one cycle, with the columns ``time_s``, ``stroke_deg`` and ``pitch_deg``. The samples
+        must be equally spaced in time.
     frames : int
         Number of frames in the cycle. The frames are evenly spaced in time.
     frequency : float, optional
-        Frequency of the wing's cycles (Hz). The default of `frequency` is the rate at which the motion repeats.
+        Frequency of the wing's cycles (Hz). By default, `frequency` is computed from the time after which the motion
+        repeats.
     radius : float, optional
-        Distance of the drawn chord from the stroke axis, in chords. The default of `radius` is 3 chords. If the
-        peak-to-peak stroke is less than 11 degrees, the default of `radius` is larger, so that the leading edge moves
-        by 2.5 chords.
+        Distance of the drawn chord from the stroke axis, as a multiple of the length of the chord. The default of
+        `radius` is 3. If the peak-to-peak stroke is less than 11 degrees, the default of `radius` is so large that the
+        leading edge moves by 2.5 chords.
     lift : str or None
-        The column that the arrow shows. If `lift` is None, no arrow is drawn. If `lift` is not given and the table has
-        no column of the lift, the picture has no arrow.
+        The column that the length of the arrow shows. If `lift` is None, no arrow is drawn. If you do not give `lift`
+        and the table has no column `lift_mn`, no arrow is drawn.
     pitch_sign : {1, -1}, optional
-        Sign convention of the pitch, for a wing that moves to positive stroke with a positive pitch: the trailing edge
-        lags (1) or leads (-1). The default of `pitch_sign` is the convention of the table's model. If the table has no
-        model, the default of `pitch_sign` is the sign for which the trailing edge lags.
+        Sign convention of the pitch. The sign describes a wing that moves towards positive stroke with a positive
+        pitch: the trailing edge lags (1) or leads (-1). The default of `pitch_sign` is the convention of the table's
+        model. If the table contains no model, the default is the sign for which the trailing edge lags on average.
     legend
-        The legend, as for `response`.
+        This argument has the same meaning as in `flapwing.plot.response`.
     ax : matplotlib Axes, optional
-        Axes for the picture of the wing. If `ax` is given, the curves of stroke and pitch are not drawn, and the legend
+        Axes in which the wing is drawn. If you give `ax`, the curves of stroke and pitch are not drawn, and the legend
         is inside `ax`.
 
     Returns
     -------
     Animation
-        A matplotlib ``FuncAnimation``, whose `save` also writes ``.gif`` and ``.html``.
+        A matplotlib ``FuncAnimation``. Its method `save` also writes ``.gif`` and ``.html`` files.
 
     Raises
     ------
     ValueError
-        Raised if a column is unknown, or the motion does not repeat or is shorter than one cycle.
+        Raised if a column is unknown. Raised if the motion does not repeat, or if the trajectory is shorter than one
+        cycle.
     """
     data = Data.of(table)
     if frames < 2:
@@ -97,7 +100,9 @@ def wing_path(
 
 
 class Cycle:
-    """The resampled last cycle of a trajectory. Over the cycle, the phase rises from 0 to 1."""
+    """The last cycle of a trajectory, interpolated at the times of the frames. The phase rises from 0 to 1 during the
+    cycle.
+    """
 
     def __init__(self, data: Data, frames: int, frequency: float | None, lift: str | None) -> None:
         t, stroke, pitch = (data.numbers(name) for name in ("time_s", "stroke_deg", "pitch_deg"))
@@ -117,7 +122,7 @@ class Cycle:
 
 
 class _Scene:
-    """The parts of the animation: fixed parts, and parts that move in every frame."""
+    """The figure of the animation, with its fixed parts and the parts that move from frame to frame."""
 
     def __init__(self, cycle: Cycle, sign: int, radius: float, legend: bool | str, ax: Axes | None) -> None:
         self.cycle, self.frames = cycle, cycle.frames
@@ -188,7 +193,7 @@ class _Scene:
         return ax.axvline(0.0, color=_style.ink(ax), linewidth=_style.width(0.6))
 
     def draw(self, frame: int) -> list[Any]:
-        """Move all parts of the animation to their places in a frame."""
+        """Move all moving parts of the picture to their positions in a frame, and return these parts."""
         cycle = self.cycle
         spacing = max(1, round(_APART * cycle.frames))
         ago = [(frame - i * spacing) % cycle.frames for i in range(_PAST, 0, -1)]
@@ -214,7 +219,7 @@ class _Scene:
 
 
 def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
-    """Return the time (s) after which the motion repeats, computed from the end of the motion."""
+    """Return the time (s) after which the motion repeats. The time is computed from the last part of the motion."""
     n = len(t)
     states = np.column_stack([stroke, pitch])
     size = np.ptp(states, axis=0)
@@ -236,9 +241,10 @@ def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
 
 
 def pitch_sign_of(data: Data, cycle: Cycle) -> int:
-    """Return 1 if the trailing edge lags at a positive pitch, and -1 if the trailing edge leads.
+    """Return the sign convention of the pitch. With a positive pitch and a rising stroke, the trailing edge lags (1) or
+    leads (-1).
 
-    The returned sign follows the convention of the model. For a table without a model, the sign is chosen so that the
+    The sign is the convention of the table's model. If the table contains no model, the sign is chosen such that the
     trailing edge lags on average.
     """
     sign = data.meta.get("pitch_sign")
