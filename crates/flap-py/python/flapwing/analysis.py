@@ -55,8 +55,8 @@ class Sensitivity:
     base : float
         The value of the measure for the unchanged design, in the unit of the measure.
     low, high : float
-        The values of the measure at the lower and at the upper value of the parameter. `low` or `high` is nan if the
-        motion at its value of the parameter is not periodic.
+        The values of the measure at the lower and at the upper value of the parameter. If the motion at the lower or at
+        the upper value of the parameter is not periodic, `low` or `high` is nan.
     unit, measure_unit : str
         The units of the parameter and of the measure.
     """
@@ -75,7 +75,7 @@ class Sensitivity:
     @property
     def swing(self) -> float:
         """The largest absolute change of the measure when the parameter changes from its value in the design to `below`
-        or to `above`. If the motion is periodic at neither of these two values, `swing` is infinite.
+        or to `above`. If the motion is periodic at neither `below` nor `above`, `swing` is infinite.
         """
         changes = [abs(each - self.base) for each in (self.low, self.high) if not math.isnan(each)]
         return max(changes, default=math.inf)
@@ -229,9 +229,9 @@ def rank_correlations(
 ) -> list[RankCorrelation]:
     """Compute the rank correlation (Spearman) of each parameter of a sample with a measure.
 
-    If several designs have the same value, each of these values gets the mean of their ranks. A parameter is left out
-    if all designs have the same value of the parameter. A parameter is also left out if an earlier parameter ranks the
-    designs in the same order, or in exactly the opposite order.
+    Designs with the same value of a column get the mean of their ranks. A parameter is left out if all designs have the
+    same value of the parameter. A parameter is also left out if an earlier parameter ranks the designs in the same
+    order, or in exactly the opposite order.
 
     Parameters
     ----------

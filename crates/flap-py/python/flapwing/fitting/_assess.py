@@ -16,12 +16,12 @@ from ._search import Found, Target
 from ._solution import Assessment, Outlier
 from ._structure import Layout, tests
 
-#: Limits of the probability of chi-square. Below the first limit, the model is poor. Below the second limit, the model
-#: is doubtful. Above the third limit, the standard errors are too large.
+#: Limits of the probability of chi-square. Below the first limit, the report calls the fit poor. Below the second
+#: limit, the report calls the fit doubtful. Above the third limit, the given standard errors are too large.
 POOR, DOUBTFUL, TOO_GOOD = 0.001, 0.05, 0.99
 
-#: Smallest residual of an outlier, in standard errors: for the linear loss, and for losses that reduce the weight of
-#: outliers.
+#: Smallest residual of an outlier, in standard errors. The first number is for the linear loss, and the second number
+#: for losses that reduce the weight of outliers.
 _OUTLYING, _OUTLYING_ROBUST = 4.0, 3.0
 
 

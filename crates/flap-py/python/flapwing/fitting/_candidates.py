@@ -10,8 +10,8 @@ from .._types import Design
 from ._parameters import FreeParameter
 from ._typical import typical_bounds
 
-#: Numbers that were fitted to one vehicle in the presets of `bimorph`, with the parameters of the other models that are
-#: uncertain in most robots.
+#: Parameters that are uncertain in most robots. The presets of `bimorph` contain values of some of these parameters
+#: that were fitted to one vehicle.
 _UNCERTAIN = (
     "hinge_stiffness",
     "transmission_stiffness",
@@ -41,9 +41,9 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     The uncertain parameters have the default bounds of `fit`: a third of the design's value, and three times the
     design's value. The parameters in the list below have the bounds in the list instead of the default bounds. In the
     list, ω is the angular drive frequency, J is the wing's inertia about the stroke axis, κ is `hinge_stiffness`, and T
-    is `transmission_ratio`. E is half of `drive_voltage_pp`, divided by the thickness of a piezoelectric plate. A
-    parameter in the list has the default bounds if the design's value is outside of the bounds in the list. A parameter
-    whose lower bound in the list is 0 also has the default bounds if the design's value is not zero.
+    is `transmission_ratio`. In the list, E is half of `drive_voltage_pp`, divided by the thickness of a piezoelectric
+    plate. A parameter in the list has the default bounds if the design's value is outside of the bounds in the list. A
+    parameter whose lower bound in the list is 0 also has the default bounds if the design's value is not zero.
 
     - `drag_coefficient_min`: 0.05 to 2
     - `stroke_damping`: 0 to J ω
@@ -59,8 +59,9 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
     - `pressure_term_0`, `pressure_term_1`: -0.2 to 0.2
 
     The result does not contain `lift_term_1`, `lift_term_2`, `drag_term_0` and `drag_term_1`. Readings of stroke and
-    pitch can hardly distinguish these terms from other parameters of the result. If your data contain readings of lift,
-    add the lift and drag terms to the result. The default bounds of the lift and drag terms are -1 and 1.
+    pitch can hardly distinguish the lift and drag terms from other parameters of the result. If your data contain
+    readings of lift, add the lift and drag terms to the result. The default bounds of the lift and drag terms are -1
+    and 1.
 
     Parameters
     ----------

@@ -17,10 +17,10 @@ from ._data import all_readings
 from ._deciding import DecidingMeasurements, DecidingReading, Side, deciding_measurements, deciding_readings
 from ._result import Fit
 
-#: Smallest difference of AICc at which readings decide between two fits.
+#: Smallest difference of AICc at which readings show that one of two fits is better.
 _DECIDED = 2.0
 
-#: Difference of AICc from which the verdict has the word "clearly".
+#: Smallest difference of AICc at which the verdict contains the word "clearly".
 _CLEAR = 10.0
 
 
@@ -186,9 +186,9 @@ class Comparison:
         A reading shows which of two fits is correct if the predictions of the two fits differ by many standard errors.
         Here, the standard error contains the noise of the reading and the standard errors of the fitted parameters. A
         difference of the predictions does not count if it would disappear in new fits that include the reading. Before
-        each choice of a reading, flap updates the two fits with the readings that it has already chosen. To update a
-        fit, flap uses the derivatives at the estimated parameters. flap assumes that new readings have the parameters,
-        the branch and the standard errors of the first data set.
+        flap chooses a reading, it updates the two fits with all readings that it has chosen before. To update a fit,
+        flap uses the derivatives at the estimated parameters. flap assumes that new readings have the parameters, the
+        branch and the standard errors of the first data set.
 
         Parameters
         ----------

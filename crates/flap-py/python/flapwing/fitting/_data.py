@@ -111,7 +111,7 @@ class DataSet:
     measured: dict[str, Array]
     noise: dict[str, Noise]
     branch: str | None
-    #: The parameter that rose or fell during the experiment.
+    #: The parameter that was increased or decreased during the experiment, if `branch` is given.
     parameter: str
 
     def __len__(self) -> int:
@@ -143,11 +143,11 @@ def are_unknown(sets: Sequence[DataSet], measure: str) -> Mask:
 
 def estimating(sets: Sequence[DataSet], measure: str, counted: Mask) -> Mask:
     """Return a mask that selects readings of a measure. The unknown standard error of the measure is estimated from the
-    residuals of these readings.
+    residuals of the selected readings.
 
     The result selects readings of the measure that have no given standard error and for which the mask `counted` is
-    True. If no reading fulfils both conditions, the result selects all readings of the measure for which `counted` is
-    True.
+    True. If all counted readings of the measure have given standard errors, the result selects all counted readings of
+    the measure.
     """
     mine = counted & are_unknown(sets, measure)
     return mine if mine.any() else counted & np.array([name == measure for _, name, _ in places_of(sets)])

@@ -1,4 +1,4 @@
-"""Readings that show which of two fits is better, and operating points at which new readings would show this."""
+"""Readings, and proposals for new readings, that show which of two fits is better."""
 
 from __future__ import annotations
 
@@ -76,12 +76,12 @@ class DecidingMeasurements:
     values : list of tuple of float
         The predictions of the best fit and of the second best fit at each point, in the unit of the measure.
     errors : list of float
-        The standard error of the difference between the predictions of the two fits at each point. This standard error
-        contains the noise of a reading and the standard errors of the parameters.
+        The standard error of the difference between the predictions of the two fits at each point. The standard error
+        in `errors` accounts for the noise of a reading and the standard errors of the parameters.
     expected : list of float
         The expected difference between the chi-squares of the two fits, if the model of one of the two fits is correct.
-        The entry of a point is the sum over the readings at this point and at all earlier points of the list. The
-        computation updates both fits after each reading.
+        The entry of a point adds up the differences for all readings up to this point in the list. The computation
+        updates both fits after each reading.
     """
 
     names: tuple[str, str]
@@ -187,7 +187,7 @@ def _decide(
     of the reading and the variance of the second fit's prediction. The variance of the prediction reduces the rise of
     chi-square, because a new fit that includes the reading moves its prediction towards the reading. The rise of
     chi-square is computed twice: for a correct model of the first fit, and for a correct model of the second fit. The
-    expected difference of chi-square is the mean of these two rises.
+    expected difference of chi-square is the mean of the rises for a correct first model and for a correct second model.
     """
     covariances = [finite_covariance(fit._information) for fit in fits]
     differences = [values[1] - values[0], values[0] - values[1]]

@@ -15,7 +15,8 @@ from .. import _flapwing
 from .._evaluate import evaluate
 from ._solution import Solution
 
-#: Largest correlation in a device file, so that the correlation matrix of rounded numbers stays positive definite.
+#: Largest correlation in a device file. With larger correlations, rounding could make the correlation matrix
+#: indefinite.
 _NEAREST = 0.999999
 
 #: The text that a fit adds to the description of a device; a later fit of the same robot replaces this text.
@@ -87,8 +88,8 @@ def text_of(fit: Solution, data_set: str | None) -> str:
 
 
 def _fitted(fit: Solution, data_set: str | None) -> dict[str, str]:
-    """Return a dictionary from the names of the fitted parameters to their labels in `Fit.estimates`. If each data set
-    has a separate value of a parameter, the label is the label for the chosen data set.
+    """Return a dictionary from the name of each fitted parameter to the key of this parameter in `Fit.estimates`. If
+    each data set has a separate value of a parameter, the dictionary contains the key for the chosen data set.
     """
     place = None if data_set is None else fit._place(data_set)
     labels = {}

@@ -11,14 +11,14 @@ from .._types import Array, Places
 from ._noise import Noise
 from ._structure import Layout
 
-#: Largest correlation of the discrepancy at neighbouring points.
+#: Largest correlation between the discrepancies at neighbouring points.
 _MOST = 0.95
 
 #: Smallest discrepancy that counts, in standard errors of the readings.
 _LEAST = 0.1
 
-#: Smallest share of the discrepancy's squares that remains in the residuals. If the share is smaller, the fit has too
-#: few readings for an estimate of the discrepancy.
+#: Smallest share of the discrepancy's sum of squares that is assumed to remain in the residuals. At a smaller share,
+#: the fit has too few readings to estimate the discrepancy.
 _REST = 0.2
 
 #: Number of rows of the correlation matrix that are computed together.
@@ -52,11 +52,11 @@ class Discrepancies:
     """The discrepancies of all measures, and the covariance of the search coordinates with these discrepancies."""
 
     listed: list[Discrepancy]
-    #: The discrepancy of each measure, in the form of standard errors.
+    #: The discrepancy of each measure, as a `Noise` object with the standard deviation of the discrepancy.
     noise: dict[str, Noise]
     covariance: Array
-    #: Number of independent readings less the number of parameters that readings determine; infinite without
-    #: discrepancy.
+    #: Effective number of independent readings, less the number of parameters that the readings determine; infinite
+    #: without discrepancy.
     freedom: float
 
 
@@ -75,17 +75,18 @@ def of_residuals(
     """Return the discrepancy of each measure, estimated such that noise and discrepancy together explain the squares of
     the residuals.
 
-    For readings i and j of a measure, the covariance of the discrepancies is size² · s_i · s_j · ρ_ij. In this formula,
-    s is the model's value if standard errors are in per cent, and 1 if not. The correlation ρ of two points falls with
-    the distance between the points. Along each parameter, the distance of two points is the difference between the
-    ranks of their values. The products of the residuals of neighbouring points determine how fast the correlation ρ
-    falls with the distance. The fitted parameters absorb a part of the noise and of the discrepancy. The expected sum
-    of squares accounts for the absorbed part, as in a restricted maximum likelihood.
+    For readings i and j of a measure, the covariance of the discrepancies is size² · s_i · s_j · ρ_ij. In the formula
+    of the covariance, s is the model's value if standard errors are in per cent, and 1 if not. The correlation ρ of two
+    points falls with the distance between the points. Along each parameter, the distance of two points is the
+    difference between the ranks of their values. The products of the residuals of neighbouring points determine how
+    fast the correlation ρ falls with the distance. The fitted parameters absorb a part of the noise and of the
+    discrepancy. The expected sum of squares accounts for the absorbed part, as in a restricted maximum likelihood.
 
     `measures` contains the indices of the fitted readings of each measure, and `structured` contains the measures whose
-    residuals have a pattern. If standard errors have the kind ``"unknown"``, they are estimated from the residuals, so
-    the standard errors contain the discrepancy. If such residuals have a pattern, the whole standard error counts as
-    discrepancy. `inverse` is the covariance that the search coordinates have without a discrepancy.
+    residuals have a pattern. Standard errors of the kind ``"unknown"`` are estimated from the residuals, so they
+    contain the discrepancy. If standard errors are unknown and the residuals have a pattern, the whole estimated
+    standard error counts as discrepancy. `inverse` is the covariance that the search coordinates have without a
+    discrepancy.
     """
     base = np.ones(len(scaled))
     spread = np.zeros_like(inverse)
@@ -133,7 +134,7 @@ def of_residuals(
 
 def _likeness(layout: Layout, chosen: Places, scaled: Array, shape: Array) -> dict[str, float]:
     """Return the squared discrepancy that the products of neighbouring residuals along each parameter indicate. The sum
-    of these products is divided by the sum of the products of the neighbouring values in `shape`.
+    of the products of residuals is divided by the sum of the products of the neighbouring values in `shape`.
     """
     whole = np.zeros(len(scaled))
     whole[chosen] = shape

@@ -8,7 +8,7 @@ from .._types import Array, Places
 from ._parameters import Space
 from ._search import rank
 
-#: Limit of the probability below which data sets disagree. The limit is divided by the number of tests of a fit
+#: Data sets disagree if the probability of the test is below this limit, divided by the number of tests of a fit
 #: (Bonferroni).
 _SIGNIFICANT = 1e-3
 

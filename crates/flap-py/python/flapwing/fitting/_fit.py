@@ -84,8 +84,8 @@ def fit(
         Number of threads, 1 or more. The default of `threads` is one thread per core. The number of threads does not
         change the results.
     progress : bool or function, optional
-        If True, `fit` shows the number of computed points. If you give a function, `fit` calls it with two arguments,
-        which are both the number of computed points.
+        If True, `fit` shows the number of computed points. If `progress` is a function, `fit` calls the function with
+        two arguments. Both arguments are the number of computed points.
     **keywords : float or str
         Parameters that have the same value in all data sets, and solver settings. If a data set has a column of a
         parameter, the column replaces the keyword argument for this data set.

@@ -14,14 +14,14 @@ from ._model import FINE, Answer, Model
 from ._parameters import Coordinate, Space
 from ._search import RANK_TOLERANCE, Ask, Found, Target, decompose, minimise, sobol, together, tolerance_of
 
-#: Largest number of values of a profile on each side of the estimate.
+#: Largest number of points of a profile that are computed to find its end, on each side of the estimate.
 _TRIES = 6
 
-#: Further values of a profile, as shares of the distance from the estimate to the end of the interval.
+#: Positions of the points of a profile between the estimate and its end, as shares of the distance.
 _BETWEEN = (1.0 / 3.0, 2.0 / 3.0)
 
-#: Largest difference between the required height of a profile and the height at the end of the profile. The height is
-#: the square root of the rise of the cost, in standard errors.
+#: Largest relative difference between the required height of a profile and the height at its end. The height is the
+#: square root of twice the increase of the cost, in standard errors.
 _NEAR = 0.03
 
 
@@ -35,14 +35,14 @@ class Profile:
         Values of the parameter in SI units, in rising order.
     rise : array
         The signed square root of the increase of chi-square at each value, in standard errors of the parameter. If
-        `loss` is not ``"linear"``, the sum of the losses replaces chi-square. These standard errors include the
+        `loss` is not ``"linear"``, the sum of the losses replaces chi-square. The standard errors in `rise` include the
         discrepancy of the model and the variance of a robust loss. `rise` is 0 at the estimate. If the data determine
         the parameter well, `rise` is nearly a linear function of the parameter.
     low, high : float
         Lower and upper end of the parameter's 95 % interval, in SI units.
     open_below, open_above : bool
-        True if the interval extends to the lower or upper bound of the parameter. The data then give no lower or upper
-        limit for the parameter.
+        True if the interval extends to the lower or upper bound of the parameter. If the interval extends to a bound,
+        the data give no limit for the parameter on the side of the bound.
     """
 
     value: Array
@@ -76,8 +76,8 @@ class _Side:
 @dataclass(frozen=True)
 class _ProfileSearch:
     """A finished fit whose profile likelihoods are computed: readings, estimate, and `covariance`, the inverse of the
-    curvature of the cost. A profile ends where its height is `quantile` standard errors. These standard errors include
-    the discrepancy of the model and the variance of a robust loss.
+    curvature of the cost. A profile ends where its height is `quantile` standard errors, which include the discrepancy
+    of the model and the variance of a robust loss.
     """
 
     space: Space
@@ -183,17 +183,16 @@ def profiles(
     return made, better
 
 
-#: Number of random sets of parameters that are tried for `indistinct`, and number of sets that are used.
+#: Number of random sets of parameters that `indistinct` simulates, and number of the sets whose derivatives it uses.
 _SETS_TRIED, _SETS_USED = 6, 4
 
 #: The tolerance of the integration for the random sets of parameters.
 _RTOL = 1e-7
 
-#: Limit for a parameter without an effect: the change of every reading over the whole range of the parameter, as a
-#: share of the reading's standard error.
+#: A parameter has no effect if its whole range changes the residuals by less than this number of standard errors.
 _EFFECT = 1e-2
 
-#: Smallest component of a direction that texts show, as a share of the largest component.
+#: Smallest change of a parameter that the text for a combined change contains, as a share of the largest change.
 _SHARE = 0.05
 
 
@@ -202,10 +201,11 @@ def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> l
     the parameters are. `at_estimate` contains the derivatives of the residuals at the estimate.
 
     The derivatives of the readings are computed at several random sets of parameters. If the derivatives have a null
-    space at each set, no readings of the same measures at the same points can determine all parameters. If only a
-    product of parameters affects the readings, all sets have the same null space in the logarithms of the parameters.
-    If only a sum of parameters affects the readings, all sets have the same null space in the parameters themselves. To
-    find the null space that all sets have in common, the derivatives at all sets are stacked in one matrix.
+    space at each set, the measured quantities at the operating points of the data cannot determine all parameters. If
+    only a product of parameters affects the readings, the null space in the logarithms of the parameters does not
+    depend on the set. If only a sum of parameters affects the readings, the null space in the parameters themselves
+    does not depend on the set. To find a null space that all sets of parameters have in common, the derivatives at all
+    sets are stacked in one matrix.
     """
     space = model.space
     # A change that affects no reading at any values of the parameters affects none at the estimate.

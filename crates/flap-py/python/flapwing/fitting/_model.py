@@ -21,14 +21,16 @@ from ._parameters import Space
 #: The tolerance of the integration of the last search.
 FINE = 1e-6
 
-#: The tolerances of integration and settling for initial states, which need only be close to the motion.
+#: The tolerances of integration and settling for the computation of initial states, which must only be close to the
+#: orbit.
 _NEARBY, _SETTLED = 1e-4, 1e-4
 
 #: Limit for values near zero, as a share of the parameter's range. If a parameter is nearer to zero than the limit,
 #: relative changes give no derivative. The derivative is then computed from a step of the size of the limit.
 _NEAR_ZERO = 1e-3
 
-#: Number of results of the model that are kept, because a search repeats the point at which an earlier search ended.
+#: Number of answers of the model that are stored, because a search often begins at the point at which an earlier search
+#: ended.
 _KEPT = 16
 
 
@@ -36,7 +38,7 @@ _KEPT = 16
 class Outputs:
     """A list of the values that the model computes. Each entry is a measure at an operating point."""
 
-    #: The data set of each output, for parameters that differ between data sets.
+    #: The index of the data set of each output, because parameters can differ between data sets.
     of_set: Places
     #: The operating point of each output, as an index into the columns of points.
     row: Places
@@ -48,13 +50,13 @@ class Outputs:
 class Answer:
     """The predictions of the model for one set of parameters."""
 
-    #: Values of the measures; nan if the motion does not settle.
+    #: The predicted values of the measures; nan if the motion does not settle.
     values: Array
     #: Derivatives of the measures with respect to the coordinates; zero if a derivative is unknown.
     slopes: Array
     #: The status of the motion at each operating point.
     status: np.ndarray[Any, Any]
-    #: True for each measure with an unknown derivative.
+    #: True for each predicted value with an unknown derivative.
     gaps: Mask
 
 
@@ -104,8 +106,7 @@ class Model:
     def at(self, xs: Sequence[Array], *, slopes: bool = True, rtol: float | None = None) -> list[Answer]:
         """Return the predictions of the readings for each vector of search coordinates in `xs`.
 
-        A prediction is nan if the operating point of the reading is not simulated during a search, because it has only
-        held-out readings.
+        The prediction of a reading is nan if searches do not simulate the reading's operating point (see `Part`).
         """
         keys = [(x.tobytes(), slopes, rtol) for x in xs]
         new = {key: x for key, x in zip(keys, xs) if key not in self._known}

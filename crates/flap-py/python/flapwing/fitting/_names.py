@@ -89,7 +89,7 @@ class Names:
         return True
 
     def parameter(self, name: str) -> str:
-        """Return the full name of a parameter. Raise ValueError if no parameter has this name."""
+        """Return the full name of a parameter. Raise ValueError if no parameter has the given name."""
         return name if name in self.parameters else _flapwing.parameter(self.model, name)
 
     def unit(self, name: str) -> str:

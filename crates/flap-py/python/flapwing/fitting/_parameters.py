@@ -31,8 +31,9 @@ class FreeParameter:
         `high` are required. The first search begins at the design's value, or at the middle of the bounds if the
         design's value is outside of the bounds. A bound can be zero if the parameter can be zero.
     prior : (value, error), optional
-        A value of the parameter that is known before the fit, and the standard error of this value. Both are numbers in
-        SI units or text with units. The standard error of a prior can also be a share of the value, such as ``"5 %"``.
+        A value of the parameter that is known before the fit, and the standard error of this value. Give the value and
+        the standard error as numbers in SI units or as text with units. The standard error of a prior can also be a
+        share of the value, such as ``"5 %"``.
     per_set : bool
         True if each data set has a separate value of the parameter, for example if the wing was changed between
         experiments.

@@ -89,7 +89,7 @@ def answers_at(
     model: Model, points: Mapping[str, Any], measure: str, x: Array, place: int = 0, like: DataSet | None = None
 ) -> Answer:
     """Return the predictions of a measure at given operating points, with the parameters of the data set with the index
-    `place`. If the data set `like` is given and has a branch, the motions are computed along this branch of hysteresis.
+    `place`. If the data set `like` is given and has a branch of hysteresis, the motions are computed along the branch.
     """
     model.names.check_measure(measure)
     count = len(next(iter(points.values())))

@@ -116,7 +116,7 @@ class Fit(Solution):
         ----------
         points : dict, DataFrame or Grid
             Columns of parameters, as in `Readings`. You can leave out parameters that have the same value in all data
-            sets. If you give a grid, it sets the parameters of its axes, its derived parameters, and the parameters in
+            sets. A grid in `points` sets the parameters of its axes, its derived parameters, and the parameters in
             ``[params]`` that were not fitted. Other parameters of the grid's preset or device are ignored, so the grid
             must name only one preset or device.
         measure : str
@@ -126,7 +126,7 @@ class Fit(Solution):
             parameters of the first data set, and all motions start from rest. If the data set has a branch of
             hysteresis, flap computes the motions along the branch, from one operating point to the next. The branch
             contains the points of the data set that differ from a predicted point only in the data set's `parameter`.
-            If the data set has no such points, the branch begins at the first point of the prediction.
+            If the data contribute no points to a branch, the branch begins at the first predicted point.
         reading : bool
             If True, the width of the bands also accounts for the noise of readings, such that 95 % of new readings are
             within the bands. The noise has the standard errors of the readings in `data_set`. If `data_set` has no
@@ -195,10 +195,10 @@ class Fit(Solution):
             If True, the result can contain several readings of the same measure at the same point.
         data_set : str, optional
             The data set that gives the new readings their parameters, branch and standard errors. For example, choose
-            the data set of the robot that you measure next. If `target` is a prediction, the prediction uses the same
-            data set. If `target` is a parameter of one data set, this data set is the default. Otherwise, the default
-            is the first data set. `Fit.predict` describes the computation of motions on a branch of hysteresis. If the
-            data set has no branch, all motions start from rest.
+            the data set of the robot that you measure next. If `target` is a prediction, the prediction also uses the
+            data set `data_set`. The default of `data_set` is the first data set, or the data set of `target` if
+            `target` is a parameter of one data set. `Fit.predict` describes the computation of motions on a branch of
+            hysteresis. If the data set has no branch, all motions start from rest.
 
         Returns
         -------
@@ -249,10 +249,10 @@ class Fit(Solution):
         """Write a device file that contains the design with the fitted parameters, and the standard errors and
         correlations of the fitted parameters.
 
-        If the design of the fit is a device, the new file also contains the description of this device. The new file
-        also contains the device's standard errors, correlations and sources of parameters that were not fitted. You can
-        name the new file in a grid, as in ``{"device": "mybee.toml"}``. The key ``[sample] of = "device"`` of a grid
-        draws samples of parameters from the standard errors in a device file.
+        If the design of the fit is a device, the new file also contains the description of the device. The new file
+        also contains the standard errors, correlations and sources in this device for parameters that were not fitted.
+        You can name the new file in a grid, as in ``{"device": "mybee.toml"}``. The key ``[sample] of = "device"`` of a
+        grid draws samples of parameters from the standard errors in a device file.
 
         Parameters
         ----------
@@ -305,8 +305,8 @@ class Fit(Solution):
         """Return the standard errors of the predictions of all readings.
 
         The standard errors account for the standard errors of the parameters, the discrepancy of the model, and the
-        noise of the readings. If a prediction depends on a parameter that the data do not determine, its standard error
-        is infinite.
+        noise of the readings. If a prediction depends on a parameter that the data do not determine, the standard error
+        of the prediction is infinite.
         """
         error = np.hypot(error_of(answer, self._covariance), _search.sigmas(self._sets, answer.values, self._guesses))
         names = np.array(self._model.outputs.measure)

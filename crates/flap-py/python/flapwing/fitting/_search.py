@@ -20,7 +20,7 @@ from ._parameters import Space
 
 _Result = TypeVar("_Result")
 
-#: A function that returns the results of the model at a set of coordinates.
+#: A function that returns the model's predictions for a set of coordinates.
 Ask = Callable[[Array], Answer]
 
 
@@ -81,10 +81,11 @@ def together(
     return [found[place] for place in range(len(searches))]
 
 
-#: Tolerances of the integration: for choosing starts, and for the searches from all starts.
+#: Tolerances of the integration: for the choice of the starting points, and for the first search from each starting
+#: point.
 LOOK, COARSE = 1e-4, 1e-5
 
-#: Number of sets of coordinates that are tried for each start.
+#: Number of points of the Sobol' sequence that are simulated for each search.
 _LOOKS = 4
 
 #: Largest number of steps of a search.
@@ -242,10 +243,12 @@ LOSSES: dict[str, tuple[Callable[[Array], Array], Callable[[Array], Array], Call
     "arctan": (np.arctan, lambda z: 1 / (1 + z**2), lambda z: -2 * z / (1 + z**2) ** 2),
 }
 
-#: The variance of the estimates with each loss, relative to the linear loss, for normal residuals.
+#: The variance of the estimates for normally distributed residuals with each loss function, divided by the variance
+#: with the linear loss.
 NORMAL_VARIANCE = {"linear": 1.0, "soft_l1": 1.079, "huber": 1.107, "cauchy": 1.313, "arctan": 2.055}
 
-#: Smallest curvature of a robust cost, as a share of the mean weight of the residuals. Far outliers bend the cost down.
+#: Smallest curvature of the cost with a robust loss, as a share of the mean weight of the residuals. Far outliers
+#: reduce the curvature.
 _CURVATURE = 0.1
 
 
@@ -253,8 +256,8 @@ def robust_factors(residuals: Array, loss: str, freedom: float) -> tuple[float, 
     """Return the curvature of the cost and the variance of the estimates, divided by their values for the linear loss.
 
     The variance is the variance of an M-estimator, E[psi^2] / E[psi']^2 (Huber and Ronchetti 2009, chapter 7). The
-    curvature is E[psi']. In these formulas, psi is the derivative of half of the loss with respect to the residual. If
-    there are few residuals, this formula underestimates the variance. The function therefore returns at least the
+    curvature is E[psi']. In the formulas, psi is the derivative of half of the loss with respect to the residual.
+    Because the formula underestimates the variance if there are few residuals, the function returns at least the
     variance for normally distributed residuals.
     """
     if loss == "linear":
@@ -271,8 +274,8 @@ def m_covariance(covariance: Array, inverse: Array, priors: Array, ratio: float)
 
     `inverse` is the inverse of the curvature of the cost. `covariance` is the covariance of the coordinates if the
     variance of the cost's gradient equals the curvature of the cost. `ratio` is the variance of the readings' gradient
-    divided by its curvature, E[psi^2] / E[psi']. For the priors, this ratio is 1. `priors` contains the derivatives of
-    the residuals of the priors.
+    divided by its curvature, E[psi^2] / E[psi']. For the priors, the variance of the gradient equals its curvature.
+    `priors` contains the derivatives of the residuals of the priors.
     """
     return np.asarray(ratio * covariance - (ratio - 1.0) * inverse @ priors.T @ priors @ inverse)
 
@@ -308,8 +311,8 @@ def tolerance_of(error: float, cost: float) -> float:
     return float(np.clip(error / max(cost, 1e-300), 1e-8, 1e-3))
 
 
-#: Smallest singular value of a direction with an effect, relative to the largest singular value. Derivatives have
-#: relative errors of about 1e-4.
+#: A direction has an effect on the residuals if its singular value is larger than this share of the largest singular
+#: value. Derivatives have relative errors of about 1e-4.
 RANK_TOLERANCE = 3e-4
 
 

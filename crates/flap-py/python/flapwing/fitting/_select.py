@@ -18,7 +18,7 @@ from ._names import Names
 from ._result import Fit
 from ._subsets import Effect, Subset, Subsets
 
-#: Smallest predicted gain of a candidate that is fitted, as a share of the best gain of the step.
+#: A step runs a fit only with candidates whose predicted gain is at least this share of the largest gain so far.
 _WORTH = 0.5
 
 
@@ -32,8 +32,8 @@ class SelectionStep:
         The parameter that becomes free in this step. `freed` is empty for the first step, and for a step that fixes a
         parameter.
     removed : str
-        The parameter that this step fixes at its value in the design, because the fit with later parameters does not
-        require it. `removed` is empty in most steps.
+        The parameter that becomes fixed at the design's value in this step, because parameters that became free later
+        make it unnecessary. `removed` is empty in most steps.
     parameters : list of str
         All free parameters after this step of the selection.
     chi_square : float
@@ -46,15 +46,15 @@ class SelectionStep:
     p : float
         The probability that noise alone improves the fit as much as the parameter that becomes free in this step. If
         all standard errors are given, `p` is computed by a chi-square test. If a standard error is estimated, `p` is
-        computed by an F test that treats all measures as one measure. This F test also counts readings with given
+        computed by an F test that treats all measures as one measure. The F test also counts readings with given
         standard errors, so `p` can be too small if most readings have given standard errors. `p` is nan if no parameter
         becomes free in this step.
     held_out : float
         Root mean square of the prediction errors of all held-out readings. Each prediction error is divided by the
         standard error of its reading. `held_out` is nan if you do not give `hold_out`.
     alternatives : dict of str to float
-        The candidate parameters that were fitted in this step but not chosen. A value in the dictionary is the
-        criterion of the fit with this candidate, minus the criterion of the fit with the chosen parameter. If the value
+        The candidate parameters that were fitted in this step but not chosen. A value in `alternatives` is the
+        criterion of the fit with the candidate, minus the criterion of the fit with the chosen parameter. If the value
         of a candidate is below 2, the candidate explains the readings about as well as the chosen parameter.
     """
 
@@ -87,8 +87,8 @@ class Selection:
     stopped : str
         The reason for the end of the selection.
     at_bounds : list of str
-        Parameters whose estimate is at a bound in at least one of the fits. With wider bounds of these parameters, the
-        fit could be better.
+        Parameters whose estimate is at a bound in at least one of the fits. With wider bounds of the parameters in
+        `at_bounds`, the fit could be better.
     criterion : str
         The name of the criterion of the selection: ``"AICc"`` or ``"BIC"``.
     fits : int
@@ -171,10 +171,10 @@ def select(
     at a time, until the fit does not improve.
 
     Use `select` to find an effect that is missing in a model. Each step predicts the decrease of chi-square by each
-    candidate parameter, from derivatives at the present fit (score test). The step then runs a fit with each of the
-    best candidates, and keeps the candidate whose fit has the lowest criterion. The selection ends if no candidate
-    lowers the criterion, or if the improvement is not significant. At the end, `select` fits all selected parameters
-    once more, with several searches and profile likelihoods, like `fit`.
+    candidate parameter, from derivatives at the present fit (score test). Each step runs a fit with each of the best
+    candidates, and chooses the candidate whose fit has the lowest criterion. The selection ends if no candidate lowers
+    the criterion, or if the improvement is not significant. At the end, `select` fits all selected parameters once
+    more, with several searches and profile likelihoods, like `fit`.
 
     Parameters
     ----------
@@ -191,8 +191,8 @@ def select(
         Largest number of free parameters, including the parameters in `start`. The default of `budget` is a fifth of
         the number of fitted readings, but at least one more than the number of parameters in `start`.
     rhs_budget : float, optional
-        Limit for the number of evaluations of the equations of motion. At this limit, `select` begins no further step,
-        but still runs the final fit.
+        Limit for the number of evaluations of the equations of motion. If a step exceeds the limit, no further step
+        begins, but `select` still runs the final fit.
     criterion : {"AICc", "BIC"}
         The information criterion that each step of the selection must lower.
     significance : float
@@ -316,8 +316,8 @@ def select(
 
 
 def _best(work: Subsets, state: Subset, predicted: Mapping[str, Effect], tries: int) -> tuple[Subset, list[Subset]]:
-    """Return the best fit with one more free parameter, and a list of the other fits that were computed for this
-    choice.
+    """Return the best fit with one more free parameter, and a list of the other fits that were computed to find the
+    best fit.
     """
     fitted: list[Subset] = []
     distinct: list[Effect] = []

@@ -34,8 +34,8 @@ class Estimate:
         Lower and upper end of the parameter's 95 % confidence interval, in SI units. If the fit computed profile
         likelihoods, the interval is computed from the profile likelihood.
     open_below, open_above : bool
-        True if the interval extends to the lower or upper bound of the parameter. The data then give no lower or upper
-        limit for the parameter.
+        True if the interval extends to the lower or upper bound of the parameter. If the interval extends to a bound,
+        the data give no limit for the parameter on the side of the bound.
     profile : Profile or None
         The profile likelihood of the parameter. `profile` is None if the fit did not compute profile likelihoods.
     at_bound : bool
@@ -93,9 +93,9 @@ class HeldOut:
     covered : float
         The fraction of the held-out readings that are within the 95 % bands of their predictions. The width of the
         bands accounts for the standard errors of the parameters, the discrepancy of the model, and the noise of the
-        readings. A reading whose motion does not settle counts as outside of its band. If a prediction has no
-        derivatives, its band is unknown, and its reading does not count. `covered` is nan if no held-out reading
-        counts.
+        readings. A reading whose motion does not settle counts as outside of its band. A held-out reading does not
+        count if its prediction has no derivatives, because the band of the prediction is unknown. `covered` is nan if
+        no held-out reading counts.
     unsettled : int
         Number of readings without a prediction, because the motion of the model at the operating point does not settle.
     """
@@ -221,8 +221,8 @@ class Goodness:
 class Assessment:
     """The standard errors of the estimated parameters, and the quality of the fit."""
 
-    #: The inverse of the curvature of the cost, and the covariance of the coordinates. The covariance contains the
-    #: discrepancy of the model. Both are infinite for coordinates that the data do not determine.
+    #: The inverse of the curvature of the cost, and the covariance of the coordinates, which includes the discrepancy
+    #: of the model. If the data do not determine a coordinate, its variance in both matrices is infinite.
     plain: Array
     covariance: Array
     #: The standard error of each coordinate, divided by the standard error that follows from the curvature of the cost.
@@ -233,7 +233,7 @@ class Assessment:
     discrepancy: Discrepancies
     goodness: Goodness
     outliers: list[Outlier]
-    #: The parameter that explains a disagreement between data sets best; empty if data sets agree.
+    #: The parameter that best explains a disagreement between data sets; empty if the data sets agree.
     drifting: str
     quantile: float
 
@@ -341,8 +341,8 @@ class Solution:
 
     @property
     def covariance(self) -> Array:
-        """The covariance matrix of the estimates, in SI units. If the data do not determine a parameter, its variance
-        is infinite, and its covariances are nan.
+        """The covariance matrix of the estimates, in SI units. If the data do not determine a parameter, the variance
+        of the parameter is infinite, and its covariances are nan.
         """
         slopes = self._model.space.slopes(self._x)
         return np.asarray(self._covariance * np.outer(slopes, slopes))
@@ -355,7 +355,7 @@ class Solution:
             return np.asarray(self._covariance / np.outer(errors, errors))
 
     def _place(self, data_set: str) -> int:
-        """Return the index of the data set with the given name. Raise ValueError if no data set has this name."""
+        """Return the index of the data set with the given name. Raise ValueError if no data set has the given name."""
         known = [one.name for one in self._sets]
         if data_set not in known:
             raise ValueError(f"there is no data set {data_set!r}\nchoose among {', '.join(known)}")

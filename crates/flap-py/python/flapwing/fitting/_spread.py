@@ -11,11 +11,11 @@ from ._model import Answer
 from ._parameters import Group, Space
 from ._search import Target
 
-#: The smallest standard deviation that is tried, as a share of the smallest standard error of a value. At the smallest
-#: standard deviation, all data sets have practically the same value.
+#: The smallest standard deviation in the list of possible standard deviations, as a share of the smallest standard
+#: error of a data set's value. At this standard deviation, all data sets have practically the same value.
 _LEAST = 0.02
 
-#: Number of standard deviations that are tried.
+#: Number of standard deviations for which the deviance is computed.
 _TRIES = 200
 
 #: Rise of the deviance at the ends of a 95 % interval: the quantile of chi-square for one degree of freedom.
@@ -91,8 +91,8 @@ def spreads(space: Space, target: Target, x: Array, answer: Answer, covariance: 
 
 
 def _lowest(tried: Array, deviances: Array) -> float:
-    """Return the standard deviation with the lowest deviance, by a parabola through the lowest deviance in the list and
-    the two values next to it.
+    """Return the standard deviation with the lowest deviance: the minimum of a parabola through the lowest deviance in
+    the list and its two neighbours.
     """
     best = int(np.argmin(deviances))
     if best in (0, len(tried) - 1):

@@ -10,11 +10,11 @@ import numpy as np
 
 from .._types import Array, Places
 
-#: Limit of the probability below which residuals are structured. The limit is divided by the number of tests of a fit
+#: Residuals have a pattern if the probability of the test is below this limit, divided by the number of tests of a fit
 #: (Bonferroni).
 _SIGNIFICANT = 0.01
 
-#: Smallest number of pairs of residuals, or of residuals in groups, for a test.
+#: Smallest number of pairs of neighbouring residuals, or of residuals, for a test.
 _FEWEST = 8
 
 #: Largest relative difference between values of a parameter that count as equal.

@@ -20,10 +20,11 @@ from ._search import Target
 #: Largest error of the cost of a fit, and largest number of rounds in which standard errors are updated.
 _COST, _ROUNDS = 0.005, 4
 
-#: Largest predicted rise of chi-square for which the fit without a parameter is tried.
+#: A fit without a parameter is computed only if the predicted rise of chi-square is at most this number.
 _NEEDED = 10.0
 
-#: Largest share of the squares of an effect by which a similar effect differs.
+#: Two effects are similar if the sum of squares of their difference is below this share of the sum of squares of an
+#: effect.
 _ALIKE = 0.01
 
 
@@ -49,7 +50,7 @@ class Effect:
     gain: float
     #: The coordinates at which a fit with the parameter begins.
     begin: Array
-    #: The changes of the residuals, in standard errors.
+    #: The predicted changes of the residuals, in standard errors.
     change: Array
 
     def is_like(self, other: Effect) -> bool:
@@ -128,8 +129,8 @@ class Subsets:
         return x, answer, target
 
     def _note_bounds(self, space: Space, x: Array) -> None:
-        """Add the parameters whose estimate is at a bound to `at_bounds`. A bound does not count if it equals the
-        design's value. If the design's value is outside of the bounds, the nearest bound does not count.
+        """Add the parameters whose estimate is at a bound to `at_bounds`. An estimate at a bound does not count if the
+        bound is the design's value, or the bound nearest to the design's value.
         """
         for one, place, low, high in zip(space.coordinates, x, space.low, space.high):
             nominal = np.clip(float(self.names.nominal.get(one.parameter) or 0.0), one.low, one.high)
@@ -152,8 +153,8 @@ class Subsets:
         effect first.
 
         The prediction is a Gauss-Newton step of the free parameters and one candidate parameter, within the bounds of
-        the candidate. One evaluation of the model gives the derivatives for all candidates. In this evaluation, the
-        candidates have their values in the design.
+        the candidate. One evaluation of the model gives the derivatives for all candidates. In the evaluation for the
+        derivatives, the candidates have their values in the design.
         """
         active = self.space(state.names)
         beside = [(name, self._linear(one)) for name in more for one in self.coordinates[name]]
@@ -186,8 +187,8 @@ class Subsets:
         return self.fitted(names, state.x[~mine], state.guesses, state.answer.values)
 
     def at_design(self, name: str) -> Array:
-        """Return the coordinates at which a parameter has its value in the design. If this value is outside of the
-        bounds, return the coordinates of the nearest bound.
+        """Return the coordinates at which a parameter has its value in the design. If the design's value is outside of
+        the bounds, return the coordinates of the nearest bound.
         """
         value = float(self.names.nominal[name])
         return np.array([one.at(float(np.clip(value, one.low, one.high))) for one in self.coordinates[name]])

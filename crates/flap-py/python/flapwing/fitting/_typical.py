@@ -59,7 +59,8 @@ def typical_bounds(values: Mapping[str, Any]) -> dict[str, tuple[float, float]]:
     """Return bounds in SI units for the parameters of terms that the papers leave out. `values` contains the parameters
     of the design.
 
-    The bounds do not depend on the design's values of these parameters, which are zero in most designs.
+    The bounds do not depend on the design's values of the bounded parameters, because these values are zero in most
+    designs.
     """
     sizes = _sizes(values)
     found = {name: (low * sizes[size], high * sizes[size]) for name, (low, high, size) in _BOUNDS.items()}

@@ -37,8 +37,8 @@ class Animation(FuncAnimation):
         ----------
         filename : path
             The path of the file. The name must end in ``.gif``, ``.html`` (a page with buttons), or the ending of a
-            format that the argument `writer` supports. By default, matplotlib writes other formats than these two with
-            ffmpeg.
+            format that the argument `writer` supports. By default, matplotlib writes formats other than ``.gif`` and
+            ``.html`` with ffmpeg.
         writer, **options
             Arguments for the method ``Animation.save`` of matplotlib, such as ``fps`` and ``dpi``.
         """

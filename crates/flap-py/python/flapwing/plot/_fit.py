@@ -36,7 +36,8 @@ def fit(result: Fit, show: str | None = None) -> Figure:
     result : Fit
         The result of `flapwing.fit`.
     show : {"data", "profiles", "correlations"}, optional
-        Draw only this part of the picture. By default, the picture shows all three parts.
+        The part of the picture to draw: readings, profile likelihoods or correlations. By default, all three parts are
+        drawn.
 
     Returns
     -------

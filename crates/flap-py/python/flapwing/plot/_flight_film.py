@@ -26,13 +26,13 @@ VIEWS = {
     "front": (1, 2, "Left (mm)", "Up (mm)"),
 }
 
-#: Samples of a wing beat.
+#: Number of samples in a wing beat.
 _SAMPLES = 240
 
 #: Smallest number of frames of a wing beat.
 _FRAMES_OF_BEAT = 10
 
-#: Smallest size of the vehicle, as a share of the largest flown distance.
+#: Smallest size of the drawn vehicle, as a share of the flown distance.
 _SMALLEST = 0.15
 
 
@@ -51,7 +51,7 @@ def flight_film(
 
     The wings move as in `motion`, the motion of a wing on a body at rest. The animation does not show how the motion of
     the body or the controller changes the motion of the wings. If a wing beat would have fewer than ten frames, the
-    animation slows the wings down to one beat in ten frames. The text above the picture then shows by which factor the
+    animation slows the wings down to one beat in ten frames. The text above the picture shows the factor by which the
     wings are slower.
 
     A thick line shows the body. The thick line begins at the shoulders of the wings and passes through the centre of
@@ -84,7 +84,7 @@ def flight_film(
     Returns
     -------
     Animation
-        A matplotlib ``FuncAnimation``. Its method `save` also writes ``.gif`` and ``.html`` files.
+        A matplotlib ``FuncAnimation`` whose method `save` also writes ``.gif`` and ``.html`` files.
 
     Raises
     ------
@@ -252,7 +252,7 @@ class _Scene:
         return ", ".join(parts)
 
     def draw(self, frame: int) -> list[Any]:
-        """Move all parts to their places in a frame, and return the moved parts."""
+        """Move all moving parts of the picture to their positions in a frame, and return these parts."""
         self.title.set_text(self._caption(frame))
         return [self.title, *(part for view in self.views for part in view.draw(self, frame))]
 

@@ -16,7 +16,7 @@ from . import _style
 from ._checks import checked
 from ._response import Family, along
 
-#: Columns of the force (mN) and of the torque (µN·m).
+#: Names of the columns with the components of the force (mN) and of the torque (µN·m).
 FORCES = ("force_forward_mn", "force_left_mn", "force_up_mn")
 TORQUES = ("torque_roll_unm", "torque_pitch_unm", "torque_yaw_unm")
 

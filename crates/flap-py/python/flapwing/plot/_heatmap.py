@@ -58,7 +58,7 @@ def heatmap(
     values. On a logarithmic axis, the edges are halfway between the logarithms of the values. Cells without a periodic
     motion are grey. A cell is hatched if ``[where]`` excludes the row of the cell, or if the row is not in the file. A
     legend explains grey and hatched cells. In results of `flapwing.respond`, the curves of different designs have
-    different points. If a cell between the ends of such a curve has no row, the cell shows the nearest row of the
+    different points. If a cell between the ends of a response curve has no row, the cell shows the nearest row of the
     curve.
 
     If the points do not form a grid, for example in a sample, each point is drawn as a dot. Between the dots, the
@@ -77,20 +77,20 @@ def heatmap(
         The default of `y` is the first axis of the grid that is not on the horizontal axis. If the grid has fewer than
         two axes, flap chooses parameters of the sample.
     xscale, yscale : {"linear", "log"}, optional
-        The scales of the axes. By default, an axis is logarithmic if neighbouring values have a constant ratio and all
-        values together span a factor of ten or more. If the points do not form a grid, the default scale is linear.
+        The scales of the axes. By default, an axis is logarithmic if its values have a constant ratio and span a factor
+        of ten or more. If the points do not form a grid, the default scale is linear.
     cmap : str, optional
         A colour map of matplotlib. The default of `cmap` is viridis. If the measure has positive and negative values,
-        the default colour map is white at zero, and a line in the picture marks the value zero.
+        the default colour map is white at zero, and a line marks the value zero.
     vmin, vmax : float, optional
         The values at the ends of the colour bar, in the unit of the colour bar. By default, `vmin` is the smallest and
-        `vmax` is the largest value of the measure in the picture. If the measure has values beyond an end of the colour
-        bar, this end has an arrow.
+        `vmax` is the largest value of the measure in the picture. An end of the colour bar has an arrow if the measure
+        has values beyond this end.
     reduce : {"max", "min", "mean"}, optional
         The value of a cell to which several rows belong: the largest value, the smallest value or the mean of these
         rows. Several rows belong to a cell if the grid has axes that are not drawn. Rows without a value are left out.
     annotate : bool
-        If True, a star marks the cell with the best value. The legend contains the value and the parameters of this
+        If True, a star marks the cell with the best value. The legend contains the value and the parameters of the best
         cell. With ``reduce="max"`` or ``reduce="min"``, the legend also contains the cell's values on the axes that are
         not drawn. The best cell has the largest value with ``reduce="max"``, and the smallest value with
         ``reduce="min"``. If `reduce` is neither ``"max"`` nor ``"min"``, the best cell has the smallest value of a cost
@@ -166,8 +166,8 @@ def heatmap(
 
 
 def _reduced(data: Data, names: Sequence[str], value: str, how: str) -> Data:
-    """Return one row for each combination of values in the columns `names`. This row contains the largest value, the
-    smallest value or the mean of the rows with this combination.
+    """Return one row for each combination of values in the columns `names`. The returned row contains the largest
+    value, the smallest value or the mean of all rows with the same combination.
     """
     groups = data.groups(names)
     values = np.where(data.measured(), data.numbers(value), np.nan)

@@ -130,7 +130,7 @@ class _Branch:
     def __init__(self, x: np.ndarray, y: np.ndarray, bistable: np.ndarray) -> None:
         self.x, self.y = np.ascontiguousarray(x, float), np.ascontiguousarray(y, float)
         self.bistable = np.ascontiguousarray(bistable)
-        #: The rows after which the branch jumps to the motion of the opposite branch.
+        #: The indices of the rows after which the branch jumps to a different motion.
         self.jumps: list[int] = []
 
 

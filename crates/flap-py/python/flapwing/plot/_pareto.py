@@ -35,7 +35,7 @@ def pareto(
 
     A design is left out if it has no periodic motion, or if one of its objectives is NaN.
     `flapwing.analysis.non_dominated` computes the front. Rings mark the designs on the Pareto front. If you give two
-    objectives, a stepped line also connects these designs.
+    objectives, a stepped line also connects the designs on the Pareto front.
 
     Parameters
     ----------
@@ -53,8 +53,8 @@ def pareto(
         `flapwing.plot.heatmap`.
     where, **slices
         Values of columns that select rows, as in `flapwing.plot.response`. If you select no value of an axis, the
-        picture shows the designs at all values of this axis. The same rule applies to an axis that is combined with a
-        sample.
+        picture shows the designs at all values of this axis. If a sample is combined with an axis, the picture also
+        shows the designs at all values of the axis.
     legend, colorbar, ax
         These arguments have the same meaning as in `flapwing.plot.response`.
 

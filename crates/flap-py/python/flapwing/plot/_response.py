@@ -38,24 +38,24 @@ def response(
 ) -> _style.Drawn:
     """Draw a measure against one parameter, with one line for each value of a second parameter.
 
-    A line has a gap at points without a periodic motion. Above the picture, marks in the colour of the line show these
-    points.
+    A line has a gap at points without a periodic motion. Above the picture, marks in the colour of a line show the
+    points without a periodic motion.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of `sweep`, `evaluate` or `respond`, or the path of a file of results. To compare designs, give the
-        results of each design: a mapping of names to results, or a list of results. The picture then has one line for
-        each design.
+        results of each design: a mapping of names to results, or a list of results. If you give several results, the
+        picture has one line for each of the results.
     y : str, optional
         The measure to draw. The default of `y` is the peak-to-peak stroke.
     x : str, optional
         The parameter on the horizontal axis. The default of `x` is ``drive_frequency``. If ``drive_frequency`` does not
         vary, the default of `x` is the last axis of the grid.
     by : str, optional
-        The picture has one line for each value of this parameter. If the grid has two or more axes, the default of `by`
-        is the first axis that is not on the horizontal axis. If you give several results, you cannot give `by`, because
-        the picture has one line for each of the results.
+        The picture has one line for each value of the parameter `by`. If the grid has two or more axes, the default of
+        `by` is the first axis that is not on the horizontal axis. If you give several results, you cannot give `by`,
+        because the picture has one line for each of the results.
     where, **slices
         Values of columns that select the rows to draw: numbers in SI units, text with units, or words. Give the values
         in the mapping `where`, or as keyword arguments such as ``drive_voltage_pp="100 V"``. If you select no value of
@@ -132,17 +132,17 @@ def response_panels(
     ----------
     table : Table, data frame, mapping of columns, or path
         Results of `sweep`, `evaluate` or `respond`, or the path of a file of results. To compare designs, give the
-        results of each design: a mapping of names to results, or a list of results. The picture then has one line for
-        each design.
+        results of each design: a mapping of names to results, or a list of results. If you give several results, the
+        picture has one line for each of the results.
     measures : sequence of str
         The measures to draw, from top to bottom.
     x : str, optional
         The parameter on the horizontal axis. The default of `x` is ``drive_frequency``. If ``drive_frequency`` does not
         vary, the default of `x` is the last axis of the grid.
     by : str, optional
-        The picture has one line for each value of this parameter. If the grid has two or more axes, the default of `by`
-        is the first axis that is not on the horizontal axis. If you give several results, you cannot give `by`, because
-        the picture has one line for each of the results.
+        The picture has one line for each value of the parameter `by`. If the grid has two or more axes, the default of
+        `by` is the first axis that is not on the horizontal axis. If you give several results, you cannot give `by`,
+        because the picture has one line for each of the results.
     where, **slices
         Values of columns that select rows, as in `flapwing.plot.response`.
     label : sequence of str, optional
@@ -189,7 +189,7 @@ def response_panels(
 
 def _together(table: Any, label: Sequence[str] | None, by: str | None) -> tuple[Data, str | None]:
     """Return all results in one table, and the column whose values distinguish the lines of the picture. If `table`
-    contains several results, this column contains the names of the results.
+    contains several results, the column that distinguishes the lines contains the names of the results.
     """
     designs = several(table, label)
     if designs is None:
@@ -309,8 +309,8 @@ class Family:
             self._strokes(ax, rows, (place + 0.75) * step, colour)
 
     def _not_periodic(self) -> list[tuple[np.ndarray, Any]]:
-        """Return a list of lines that have points without a periodic motion. An entry contains the numbers of the rows
-        of these points, and the colour of the line.
+        """Return a list of lines that have points without a periodic motion. The entry for a line contains the row
+        numbers of the points without a periodic motion, and the colour of the line.
         """
         without = ~self.data.measured()
         marked = [rows[(rows >= 0) & without[rows]] for rows in self.rows]
@@ -375,7 +375,7 @@ def along(data: Data, by: str | None) -> str:
 
 def _beside(data: Data, x: str) -> str | None:
     """Return the default parameter that distinguishes the lines: the first axis of the grid that is not on the
-    horizontal axis. Return None if there is no such axis.
+    horizontal axis. Return None if the only axis is the horizontal axis.
     """
     left = [name for name in data.axes() if name != data.axis(x)]
     if x not in data.parameters():
@@ -384,8 +384,8 @@ def _beside(data: Data, x: str) -> str | None:
 
 
 def _alone(ys: np.ndarray) -> np.ndarray:
-    """Return a mask that is True for a value whose neighbours are missing. A line cannot show such a value, so the
-    value gets a marker.
+    """Return a mask that is True for a value whose neighbours are missing. A line cannot show a value without
+    neighbours, so the picture shows the value with a marker.
     """
     there = np.isfinite(ys)
     before = np.concatenate([[False], there[:-1]])

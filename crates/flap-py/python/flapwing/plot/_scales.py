@@ -13,7 +13,8 @@ from matplotlib.ticker import FixedLocator, FuncFormatter, LogLocator, NullForma
 from .._flapwing import is_signed
 from . import _style
 
-#: The colour map for numbers of both signs. Numbers of one sign have matplotlib's `image.cmap`, by default viridis.
+#: The colour map for numbers of both signs. Numbers of one sign get the colour map in matplotlib's setting
+#: `image.cmap`, by default viridis.
 DIVERGING = "RdBu_r"
 
 
@@ -22,8 +23,8 @@ class Colours(NamedTuple):
 
     cmap: str | Colormap
     norm: Normalize
-    #: The ends of the colour bar with an arrow: "neither", "min", "max" or "both". An arrow marks numbers outside of
-    #: the colour bar.
+    #: The ends of the colour bar that have an arrow: "neither", "min", "max" or "both". An arrow shows that numbers
+    #: exist beyond the end.
     extend: str
     #: True for a diverging colour map around zero.
     signed: bool

@@ -98,8 +98,8 @@ def scatter(
 
 
 def _third(data: Data, taken: list[str]) -> str | None:
-    """Return the measure that sets the colours by default. This measure differs from the measures on the two axes.
-    Return None if the table contains no further measure.
+    """Return the measure that sets the colours by default. The measure for the colours differs from the measures on the
+    two axes. Return None if the table contains no further measure.
     """
     try:
         return data.usual("motion", "color", taken)

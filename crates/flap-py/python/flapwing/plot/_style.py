@@ -69,10 +69,10 @@ _SETTINGS: Any = {
 #: Units of length in inches.
 _INCHES = {"in": 1.0, "cm": 1.0 / 2.54, "mm": 1.0 / 25.4}
 
-#: The height of a picture with one Axes object (inches). Pictures with several axes are higher in proportion.
+#: The height of a figure with one Axes object (inches).
 _HEIGHT = 4.0
 
-#: Width of a figure (inches) below which axes are drawn below each other.
+#: Width of a figure (inches) below which the figure is narrow: axes are then below each other, not beside each other.
 NARROW = 5.0
 
 
@@ -164,7 +164,7 @@ def applied(ax: Axes | None = None) -> Iterator[None]:
     """Apply the style of flap's pictures while a picture is drawn.
 
     A setting of matplotlib is not changed if the user has set it to a value that differs from the default of
-    matplotlib. Axes that the user gives keep the style of their figure.
+    matplotlib. Axes that the user gives keep the style of the user's figure.
     """
     own = {} if ax is not None else {name: value for name, value in _SETTINGS.items() if _is_default(name)}
     before = plt.get_fignums()
@@ -213,7 +213,8 @@ def size(factor: float) -> float:
 
 def new_figure(width: float = 6.4, height: float = _HEIGHT) -> Figure:
     """Return a new figure whose layout leaves room for the labels. If the user has set a size of figures in matplotlib,
-    the new figure has this width. A figure with one Axes object also has the height that the user has set.
+    the new figure has the width in this setting. A figure with one Axes object also has the height that the user has
+    set in matplotlib.
     """
     if not _is_default("figure.figsize"):
         sides = mpl.rcParams["figure.figsize"]

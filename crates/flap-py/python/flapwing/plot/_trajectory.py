@@ -51,24 +51,24 @@ def trajectory(
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Figure | Axes:
-    """Draw columns of a trajectory over time, and phase portraits beside them. A phase portrait shows the rate of
+    """Draw columns of a trajectory over time, and phase portraits of the motion. A phase portrait shows the rate of
     change of an angle against the angle.
 
     Parameters
     ----------
     table : Table, data frame, mapping of columns, or path
         A trajectory from `flapwing.trajectory` or ``flap run --trajectory``. To compare designs, give a trajectory of
-        each design: a mapping of names to trajectories, or a list of trajectories. All lines of a design then have the
-        same colour.
+        each design: a mapping of names to trajectories, or a list of trajectories. If you compare designs, all lines of
+        a design have the same colour.
     signals : str or sequence of str
         The columns to draw over time. If you give one trajectory, columns with the same unit are drawn in the same
         axes. If you give several trajectories, each column has separate axes. By default, stroke and pitch are drawn.
     portrait : sequence of str, optional
-        The columns for which a phase portrait is drawn. By default, these columns are stroke and pitch, if they are
-        among the columns in `signals`. If the table has no column for the rate of an angle, the rate is computed by
+        The columns for which a phase portrait is drawn. By default, phase portraits of stroke and pitch are drawn, if
+        `signals` contains these columns. If the table has no column for the rate of an angle, the rate is computed by
         finite differences.
     time : str
-        The column that contains the time. If the name of this column has no unit, the time is in seconds.
+        The column that contains the time. If the name of the time column has no unit, the time is in seconds.
     label : str or sequence of str, optional
         The name of the trajectory in the legend. If `table` is a list of trajectories, give a list of names. By
         default, the second and later trajectories have names with numbers.
@@ -258,8 +258,8 @@ def _rate(data: Data, name: str, t: np.ndarray, shown: Shown) -> tuple[np.ndarra
 
 def _common(words: list[str], unit: str) -> str:
     """Return the label of a vertical axis that shows several columns. The label is "Angle" for degrees, or the names of
-    two columns. For more columns, the label is the last word of their names if this word is the same in all names,
-    otherwise "Value".
+    two columns. For more than two columns, the label is the last word of all names, or "Value" if the last words
+    differ.
     """
     if unit == "°":
         return "Angle"

@@ -26,8 +26,8 @@ _MARKERS = {"subharmonic": "+", "unsettled": "x", "diverged": "1", "step_limit":
 
 
 def form_no_grid(data: Data, x: str, y: str) -> bool:
-    """Return True if a parameter is sampled, if rows lie between the values of an axis, or if most cells of a map would
-    be empty.
+    """Return True if a parameter is sampled, if rows lie between the values of an axis, or if most cells would be
+    empty.
     """
     if is_text(data[x]) or is_text(data[y]) or data.followed() in (x, y):
         return False

@@ -75,7 +75,7 @@ def wing_path(
     Returns
     -------
     Animation
-        A matplotlib ``FuncAnimation``. Its method `save` also writes ``.gif`` and ``.html`` files.
+        A matplotlib ``FuncAnimation`` whose method `save` also writes ``.gif`` and ``.html`` files.
 
     Raises
     ------
