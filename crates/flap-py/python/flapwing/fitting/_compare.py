@@ -33,8 +33,8 @@ class ComparedFit:
     name : str
         The name of the fit.
     parameters : int
-        Number of free parameters, or combinations of free parameters, that the readings and priors determine. If
-        standard errors of a measure were estimated from the residuals, the estimate counts as one more parameter.
+        Number of free parameters, or combinations of free parameters, that the readings and priors determine. Each
+        measure whose standard error was estimated from the residuals adds 1 to `parameters`.
     chi_square : float
         Chi-square: the sum of the squares of (residual / standard error) over all readings. Chi-square includes the
         residuals of the priors. If standard errors were estimated from the residuals, chi-square does not show the
@@ -184,11 +184,11 @@ class Comparison:
         correct.
 
         A reading shows which of two fits is correct if the predictions of the two fits differ by many standard errors.
-        Here, the standard error contains the noise of the reading and the standard errors of the fitted parameters. A
-        difference of the predictions does not count if it would disappear in new fits that include the reading. Before
-        flap chooses a reading, it updates the two fits with all readings that it has chosen before. To update a fit,
-        flap uses the derivatives at the estimated parameters. flap assumes that new readings have the parameters, the
-        branch and the standard errors of the first data set.
+        The standard error of the difference contains the noise of the reading and the standard errors of the fitted
+        parameters. A difference of the predictions does not count if it would disappear in new fits that include the
+        reading. Before flap chooses a reading, it updates the two fits with all readings that it has chosen before. To
+        update a fit, flap uses the derivatives at the estimated parameters. flap assumes that new readings have the
+        parameters, the branch and the standard errors of the first data set.
 
         Parameters
         ----------

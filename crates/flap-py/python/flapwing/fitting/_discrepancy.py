@@ -80,7 +80,8 @@ def of_residuals(
     points falls with the distance between the points. Along each parameter, the distance of two points is the
     difference between the ranks of their values. The products of the residuals of neighbouring points determine how
     fast the correlation ρ falls with the distance. The fitted parameters absorb a part of the noise and of the
-    discrepancy. The expected sum of squares accounts for the absorbed part, as in a restricted maximum likelihood.
+    discrepancy, so the residuals are smaller. The estimate of the discrepancy corrects for the absorbed part, as in a
+    restricted maximum likelihood.
 
     `measures` contains the indices of the fitted readings of each measure, and `structured` contains the measures whose
     residuals have a pattern. Standard errors of the kind ``"unknown"`` are estimated from the residuals, so they

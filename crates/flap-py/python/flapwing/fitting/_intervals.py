@@ -35,9 +35,9 @@ class Profile:
         Values of the parameter in SI units, in rising order.
     rise : array
         The signed square root of the increase of chi-square at each value, in standard errors of the parameter. If
-        `loss` is not ``"linear"``, the sum of the losses replaces chi-square. The standard errors in `rise` include the
-        discrepancy of the model and the variance of a robust loss. `rise` is 0 at the estimate. If the data determine
-        the parameter well, `rise` is nearly a linear function of the parameter.
+        `loss` is not ``"linear"``, `rise` is computed from the sum of the losses instead of chi-square. The standard
+        errors in `rise` include the discrepancy of the model and the variance of a robust loss. `rise` is 0 at the
+        estimate. If the data determine the parameter well, `rise` is nearly a linear function of the parameter.
     low, high : float
         Lower and upper end of the parameter's 95 % interval, in SI units.
     open_below, open_above : bool

@@ -186,8 +186,8 @@ class Model:
         return Answer(values, slopes, status, gaps)
 
     def _near_zero(self, x: Array) -> list[int]:
-        """Return the indices of the coordinates whose parameter is close to zero. At zero, a relative change of the
-        parameter gives no derivative.
+        """Return the indices of the coordinates whose parameter is close to zero. If a parameter is zero, a relative
+        change of the parameter gives no derivative.
         """
         coordinates = self.space.coordinates
         return [

@@ -26,10 +26,10 @@ class FreeParameter:
     ----------
     low, high : float or str, optional
         Bounds of the parameter, in SI units or as text with units. The default bounds are a third of the design's value
-        and three times the design's value. If the design's value is zero, the default bounds are the bounds in the list
-        of `flapwing.candidates`. If the design's value is zero and the list does not contain the parameter, `low` and
-        `high` are required. The first search begins at the design's value, or at the middle of the bounds if the
-        design's value is outside of the bounds. A bound can be zero if the parameter can be zero.
+        and three times the design's value. If the design's value is zero or not set, the page of `flapwing.candidates`
+        contains the default bounds. If the page of `flapwing.candidates` contains no bounds for a parameter that is
+        zero or not set, `low` and `high` are required. The first search begins at the design's value, or at the middle
+        of the bounds if the design's value is outside of the bounds. A bound can be zero if the parameter can be zero.
     prior : (value, error), optional
         A value of the parameter that is known before the fit, and the standard error of this value. Give the value and
         the standard error as numbers in SI units or as text with units. The standard error of a prior can also be a
@@ -130,7 +130,7 @@ class Space:
 
     def prior(self, x: Array, leave_out: str = "") -> tuple[Array, Array]:
         """Return the residuals of the priors and spreads, and the derivatives of these residuals with respect to the
-        coordinates. The spread of the parameter `leave_out` gives no residuals.
+        coordinates. The result contains no residuals for the spread of the parameter `leave_out`.
         """
         known = [(place, one) for place, one in enumerate(self.coordinates) if one.prior is not None]
         residuals, slopes = np.zeros(len(known)), np.zeros((len(known), len(self)))
@@ -159,7 +159,9 @@ class Space:
 
 
 def _first_spread(group: Group, one: Coordinate) -> float:
-    """Return the standard deviation of a parameter's values between data sets with which the search begins."""
+    """Return the value of a spread at the beginning of the search: the standard deviation of a parameter's values
+    between data sets.
+    """
     if group.given is not None and not group.is_share:
         return group.given
     share = 0.1 if group.given is None else group.given

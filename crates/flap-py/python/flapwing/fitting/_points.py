@@ -54,8 +54,8 @@ def points_of(model: Model, place: str, given: Any) -> dict[str, Any]:
 
 def _of_grid(model: Model, place: str, grid: Grid) -> dict[str, Any]:
     """Return the points of a grid as columns of parameters. The columns are the parameters that vary, and the
-    parameters in ``[params]`` whose values differ from the design of the fit. Fitted parameters in ``[params]`` are
-    ignored, because they have the values of the fit.
+    parameters in ``[params]`` whose values differ from the values in the fit's design. Fitted parameters in
+    ``[params]`` are ignored, because they have the values of the fit.
     """
     names = model.names
     if grid.model != names.model:

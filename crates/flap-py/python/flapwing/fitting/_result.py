@@ -96,7 +96,8 @@ class Fit(Solution):
         empty if the model agrees with the data.
     outliers : list of Outlier
         Fitted readings that are far from the model, with the largest residual first. The residual of an outlier is
-        larger than 4 standard errors. If `loss` is not ``"linear"``, the limit is 3 standard errors.
+        larger than 4 standard errors. If `loss` is not ``"linear"``, a reading is an outlier if its residual is larger
+        than 3 standard errors.
     drifting : str
         The parameter that best explains a disagreement between data sets, because its value probably changed between
         the data sets. `drifting` is empty if the data sets agree.
@@ -109,8 +110,8 @@ class Fit(Solution):
         """Predict a measure at given operating points, with 95 % confidence bands.
 
         The width of the bands accounts for the standard errors of the parameters. If the model does not agree with the
-        data, the width also accounts for the discrepancy of the model for the predicted measure. If the data have no
-        readings of the measure, the discrepancy is unknown, and the bands leave it out.
+        data, the width of the bands also accounts for the discrepancy of the model. If the data have no readings of the
+        measure, the discrepancy is unknown, and the bands leave it out.
 
         Parameters
         ----------

@@ -110,8 +110,9 @@ class Target:
         """Return the residuals of the readings, (model - reading) / standard error, followed by the residuals of the
         priors.
 
-        If the motion at a reading does not settle, the model's prediction counts as zero, as for a wing at rest. The
-        residual of the reading is therefore large, and the search avoids coordinates at which motions do not settle.
+        If the motion at a reading does not settle, the model's prediction counts as zero, as for a wing at rest.
+        Because a prediction of zero gives a large residual, the search avoids coordinates at which motions do not
+        settle.
         """
         values = np.where(np.isfinite(answer.values), answer.values, 0.0)
         residuals = ((values - self.measured) / self.sigma)[self.used]
@@ -273,9 +274,9 @@ def m_covariance(covariance: Array, inverse: Array, priors: Array, ratio: float)
     """Return the covariance of the coordinates for a robust loss function (M-estimator), with priors.
 
     `inverse` is the inverse of the curvature of the cost. `covariance` is the covariance of the coordinates if the
-    variance of the cost's gradient equals the curvature of the cost. `ratio` is the variance of the readings' gradient
-    divided by its curvature, E[psi^2] / E[psi']. For the priors, the variance of the gradient equals its curvature.
-    `priors` contains the derivatives of the residuals of the priors.
+    variance of the cost's gradient equals the curvature of the cost. `ratio` is E[psi^2] / E[psi']: the variance of the
+    gradient of the readings' cost, divided by the curvature of this cost. For the cost of the priors, the variance of
+    the gradient equals the curvature. `priors` contains the derivatives of the residuals of the priors.
     """
     return np.asarray(ratio * covariance - (ratio - 1.0) * inverse @ priors.T @ priors @ inverse)
 

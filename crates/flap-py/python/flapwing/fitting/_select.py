@@ -55,7 +55,8 @@ class SelectionStep:
     alternatives : dict of str to float
         The candidate parameters that were fitted in this step but not chosen. A value in `alternatives` is the
         criterion of the fit with the candidate, minus the criterion of the fit with the chosen parameter. If the value
-        of a candidate is below 2, the candidate explains the readings about as well as the chosen parameter.
+        of a candidate in `alternatives` is below 2, the candidate explains the readings about as well as the chosen
+        parameter.
     """
 
     freed: str
@@ -196,10 +197,10 @@ def select(
     criterion : {"AICc", "BIC"}
         The information criterion that each step of the selection must lower.
     significance : float
-        Limit of the probability that noise alone explains the improvement by a step. Above the limit, the selection
-        ends. The probability accounts for the choice of the best among all candidate parameters (Bonferroni
-        correction). With ``significance=1``, only the criterion ends the selection, so that too many parameters become
-        free.
+        Limit of the probability that noise alone explains the improvement by a step. If the probability is above
+        `significance`, the selection ends. The probability accounts for the choice of the best among all candidate
+        parameters (Bonferroni correction). With ``significance=1``, only the criterion ends the selection, so that too
+        many parameters become free.
     tries : int
         Largest number of candidate parameters for which a step runs a fit. Candidates with the same predicted effect on
         the readings count as one candidate.

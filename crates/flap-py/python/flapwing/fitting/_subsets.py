@@ -129,8 +129,8 @@ class Subsets:
         return x, answer, target
 
     def _note_bounds(self, space: Space, x: Array) -> None:
-        """Add the parameters whose estimate is at a bound to `at_bounds`. An estimate at a bound does not count if the
-        bound is the design's value, or the bound nearest to the design's value.
+        """Add the parameters whose estimate is at a bound to `at_bounds`. A bound does not count if it equals the
+        design's value. If the design's value is outside of the bounds, its nearest bound does not count as a bound.
         """
         for one, place, low, high in zip(space.coordinates, x, space.low, space.high):
             nominal = np.clip(float(self.names.nominal.get(one.parameter) or 0.0), one.low, one.high)

@@ -78,8 +78,8 @@ def flight_film(
         computation of a frame takes about 0.1 s.
     scale : float, optional
         Factor by which the drawn vehicle is larger than the true vehicle on the scale of the trajectory. `scale` must
-        be more than zero. By default, the factor is 1. If the true vehicle is smaller than 15 % of the flown distance,
-        the default factor enlarges the vehicle to 15 %.
+        be more than zero. The default of `scale` is 1. If the true vehicle is smaller than 15 % of the flown distance,
+        the default of `scale` enlarges the vehicle to 15 %.
 
     Returns
     -------

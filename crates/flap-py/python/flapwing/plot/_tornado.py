@@ -43,7 +43,7 @@ def tornado(
         simulations only if `design` is a preset.
     measure, parameters, change, **fixed
         If `design` is a preset, `tornado` passes these arguments to `flapwing.analysis.sensitivities`. If `design`
-        contains results of a sample, `tornado` passes these arguments except `change` to
+        contains results of a sample, `tornado` passes `measure`, `parameters` and `fixed` to
         `flapwing.analysis.rank_correlations`.
     top : int
         The largest number of parameters to draw.

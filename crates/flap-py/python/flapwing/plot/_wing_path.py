@@ -219,7 +219,9 @@ class _Scene:
 
 
 def _period(t: np.ndarray, stroke: np.ndarray, pitch: np.ndarray) -> float:
-    """Return the time (s) after which the motion repeats. The time is computed from the last part of the motion."""
+    """Return the time (s) after which the motion repeats. The period of the motion is computed from the last part of
+    the motion.
+    """
     n = len(t)
     states = np.column_stack([stroke, pitch])
     size = np.ptp(states, axis=0)
