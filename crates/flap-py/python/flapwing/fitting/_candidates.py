@@ -40,19 +40,19 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
 
     The uncertain parameters have the default bounds of `fit`: a third of the design's value, and three times the
     design's value. The parameters in the list below have the bounds in the list instead of the default bounds. In the
-    list, ω is the angular drive frequency, J is the wing's inertia about the stroke axis, κ is `hinge_stiffness`, and T
-    is `transmission_ratio`. In the list, E is half of `drive_voltage_pp`, divided by the thickness of a piezoelectric
-    plate. A parameter in the list has the default bounds if the design's value is outside of the bounds in the list. A
-    parameter whose lower bound in the list is 0 also has the default bounds if the design's value is not zero.
+    list, ω is the angular drive frequency, and J is the wing's inertia about the stroke axis. In the list, E is half of
+    `drive_voltage_pp`, divided by the thickness of a piezoelectric plate. A parameter in the list has the default
+    bounds if the design's value is outside of the bounds in the list. A parameter whose lower bound in the list is 0
+    also has the default bounds if the design's value is not zero.
 
     - `drag_coefficient_min`: 0.05 to 2
     - `stroke_damping`: 0 to J ω
     - `stroke_loss_factor`, `hinge_loss_factor`: 0 to 0.5
-    - `hinge_damping`: 0 to 0.5 κ/ω
-    - `transmission_growth`: -0.25 T³ to 0.5 T³
+    - `hinge_damping`: 0 to 0.5 times `hinge_stiffness` / ω
+    - `transmission_growth`: -0.25 to 0.5 times the cube of `transmission_ratio`
     - `stroke_stiffening`: -0.2 J ω² to J ω²
-    - `hinge_stiffening`: -0.2 κ to κ
-    - `hinge_stop_stiffness`: 0 to 10 κ
+    - `hinge_stiffening`: -0.2 to 1 times `hinge_stiffness`
+    - `hinge_stop_stiffness`: 0 to 10 times `hinge_stiffness`
     - `modulus_decline`: 0 to 0.5 / E
     - `circulation_factor`, `rotation_force_factor`, `added_mass_factor`: 0 to 2
     - `plate_ratio`: 0.5 to 1.5

@@ -80,7 +80,7 @@ class DecidingMeasurements:
         in `errors` accounts for the noise of a reading and the standard errors of the parameters.
     expected : list of float
         The expected difference between the chi-squares of the two fits, if the model of one of the two fits is correct.
-        The entry of a point adds up the differences for all readings up to this point in the list. The computation
+        The entry of a point is the expected difference after all readings up to this point in the list. The computation
         updates both fits after each reading.
     """
 

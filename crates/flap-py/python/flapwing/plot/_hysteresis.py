@@ -44,7 +44,7 @@ def hysteresis(
     curve : int, optional
         If the table contains several designs, the number of one design in the column ``curve``.
     where, **slices
-        Values of columns that select rows, as in `flapwing.plot.response`.
+        The selection of rows, as for `response`.
     legend, ax
         These arguments have the same meaning as in `flapwing.plot.response`.
 

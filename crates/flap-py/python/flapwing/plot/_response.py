@@ -57,10 +57,10 @@ def response(
         `by` is the first axis that is not on the horizontal axis. If you give several results, you cannot give `by`,
         because the picture has one line for each of the results.
     where, **slices
-        Values of columns that select the rows to draw: numbers in SI units, text with units, or words. Give the values
-        in the mapping `where`, or as keyword arguments such as ``drive_voltage_pp="100 V"``. If you select no value of
-        an axis that is not drawn, the picture shows only the rows at the middle value of this axis. A warning shows the
-        middle value that was used.
+        Values of columns, which select the rows to draw: numbers in SI units, text with units, or words. Give the
+        values in the mapping `where`, or as keyword arguments such as ``drive_voltage_pp="100 V"``. If you select no
+        value of an axis that is not drawn, the picture shows only the rows at the middle value of this axis. A warning
+        shows the middle value that was used.
     label : sequence of str, optional
         If `table` is a list of results, the name of each result in the legend. By default, the names are the numbers of
         the results in the list.
@@ -144,7 +144,7 @@ def response_panels(
         `by` is the first axis that is not on the horizontal axis. If you give several results, you cannot give `by`,
         because the picture has one line for each of the results.
     where, **slices
-        Values of columns that select rows, as in `flapwing.plot.response`.
+        The selection of rows, as for `response`.
     label : sequence of str, optional
         If `table` is a list of results, the name of each result in the legend. By default, the names are the numbers of
         the results in the list.

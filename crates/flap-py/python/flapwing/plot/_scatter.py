@@ -48,9 +48,9 @@ def scatter(
         A colour map of matplotlib, if `color` is a column of numbers. The default of `cmap` is the same as in
         `flapwing.plot.heatmap`.
     where, **slices
-        Values of columns that select rows, as in `flapwing.plot.response`. In results of a grid without a sample, all
-        values of an axis are used if you select no value. If a sample is combined with an axis that is not drawn and
-        you select no value, only the axis's middle value is used.
+        The selection of rows, as for `response`. In results of a grid without a sample, all values of an axis are used
+        if you select no value. If a sample is combined with an axis that is not drawn and you select no value, only the
+        axis's middle value is used.
     legend, colorbar, ax
         These arguments have the same meaning as in `flapwing.plot.response`.
 
