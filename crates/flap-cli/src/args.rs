@@ -142,8 +142,11 @@ pub(crate) fn line() -> &'static [OsString] {
 
 /// Parses the command line. If the command line has mistakes, prints the mistakes and ends the process.
 pub(crate) fn parse() -> Args {
-    let matches = command().try_get_matches_from(line()).unwrap_or_else(|error| with_hint(error).exit());
-    Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    Args::try_parse_from(line()).unwrap_or_else(|_| {
+        // clap prints help, which has groups and examples, as an error. Building them takes longer than parsing.
+        let matches = command().try_get_matches_from(line()).unwrap_or_else(|error| with_hint(error).exit());
+        Args::from_arg_matches(&matches).unwrap_or_else(|error| error.exit())
+    })
 }
 
 /// Adds a hint to the error for an unknown command if a group contains a command with this name. For example,
