@@ -23,7 +23,7 @@ use super::units;
 pub use error::{ExpressionError, Mistake};
 use evaluate::Operation;
 pub(crate) use evaluate::of_choice;
-use parse::{Token, Tokens};
+use parse::{Token, Tokens, WORDS};
 pub use scope::{Kind, Meaning, Scope};
 
 /// Returns true if a grid file may define a new name `name` for use in expressions.
@@ -31,7 +31,7 @@ pub fn is_free_name(name: &str) -> bool {
     let mut characters = name.chars();
     characters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
         && characters.all(|character| character.is_ascii_alphanumeric() || character == '_')
-        && !["and", "or", "not"].contains(&name)
+        && !WORDS.contains(&name)
         && evaluate::find(name).is_none()
         && name != evaluate::PI.0
 }

@@ -417,6 +417,9 @@ pub(super) enum Token<'t> {
 /// Signs. In the list, `<=` must come before `<`, because the parser uses the first sign that matches.
 const SIGNS: [&str; 14] = ["<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/", "^", "(", ")", ","];
 
+/// Operators that are words.
+pub(super) const WORDS: [&str; 3] = ["and", "or", "not"];
+
 /// Operators of programming languages that are not allowed in expressions, each with the operator to use
 /// instead.
 const FOREIGN: [(&str, &str); 6] =
@@ -495,7 +498,7 @@ fn number(rest: &str, has_units: bool) -> Found<'_> {
 fn unit_length(text: &str) -> usize {
     let word = text.find(|letter| !is_name(letter)).unwrap_or(text.len());
     let is_unit = text.starts_with(|letter: char| letter.is_alphabetic() || "°%".contains(letter));
-    if !is_unit || ["and", "or", "not"].contains(&&text[..word]) {
+    if !is_unit || WORDS.contains(&&text[..word]) {
         return 0;
     }
     let is_part = |letter: char| letter.is_alphanumeric() || "*/^·°%-".contains(letter);
