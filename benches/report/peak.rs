@@ -126,8 +126,14 @@ impl Kernel for March<'_> {
     #[inline(always)]
     fn run<S: Simd>(self, simd: S) -> u64 {
         let March { periods, mark } = self;
-        let mut alike =
-            Alike { left: Vector::<S>::LANES, periods: [periods; MOST_LANES], marks: 0, rhs_evals: 0, mark };
+        let mut alike = Alike {
+            drive: Drive::new(0.1, 120.0),
+            left: Vector::<S>::LANES,
+            periods: [periods; MOST_LANES],
+            marks: 0,
+            rhs_evals: 0,
+            mark,
+        };
         run(simd, &Wing, &Unobserved, &TOLERANCES, &mut alike);
         alike.rhs_evals
     }
@@ -135,6 +141,7 @@ impl Kernel for March<'_> {
 
 /// The same run for every lane. They end together: what is marked ends with the first.
 struct Alike<'a> {
+    drive: Drive<f64>,
     left: usize,
     /// Periods left in each lane.
     periods: [u64; MOST_LANES],
@@ -144,12 +151,12 @@ struct Alike<'a> {
 }
 
 impl Queue<Wing, Unobserved, 4> for Alike<'_> {
-    fn next(&mut self, _lane: usize, _idle: bool) -> Option<Start<Drive<f64>, 4>> {
+    fn next(&mut self, _lane: usize, _idle: bool) -> Option<Start<&Drive<f64>, 4>> {
         self.left = self.left.checked_sub(1)?;
         if self.left == 0 {
             (self.mark)();
         }
-        Some(Start::new(Drive::new(0.1, 120.0), [0.0; 4], 1.0 / 120.0, SCALE))
+        Some(Start::new(&self.drive, [0.0; 4], 1.0 / 120.0, SCALE))
     }
 
     fn ended(&mut self, lane: usize, end: SpanEnd<'_, (), 4>) -> Option<Next<4>> {

@@ -140,8 +140,8 @@ impl<C, const N: usize> Start<C, N> {
     }
 
     /// Returns the start of the same run with different `constants`.
-    pub(crate) fn with<D>(self, constants: D) -> Start<D, N> {
-        let Start { y, span, scale, tolerance_factor, change, .. } = self;
+    pub(crate) fn with<D>(&self, constants: D) -> Start<D, N> {
+        let Start { y, span, scale, tolerance_factor, change, .. } = *self;
         Start { constants, y, span, scale, tolerance_factor, change }
     }
 }

@@ -73,11 +73,14 @@ impl<M: Model<N>, const N: usize> Kernel for LanesKernel<'_, M, N> {
                 match start_at(model, solver, &values, begin.as_deref()) {
                     Ok(start) => {
                         let (jobs, nearby) = (&jobs, begin.is_some());
-                        let search = |exchange| async move {
-                            let settled = settle(model, solver, start, nearby, exchange).await;
-                            jobs.borrow_mut().done(index, settled.row);
+                        let search = |exchange| {
+                            let settled = settle(model, solver, nearby, exchange);
+                            async move {
+                                let row = settled.await.row;
+                                jobs.borrow_mut().done(index, row);
+                            }
                         };
-                        return Some(Box::new(Running::new(start, search)));
+                        return Some(Running::new(start, search));
                     }
                     Err(error) => jobs.borrow_mut().done(index, Row::invalid(error)),
                 }
@@ -120,7 +123,7 @@ pub(super) fn run_alone<M, R, T, F, const N: usize>(
     solver: &SolverSettings,
     start: &Start<M::Constants<f64>, N>,
     interrupted: Interrupt<'_>,
-    search: impl FnOnce(Rc<Exchange<SumsOf<M, N>, N>>) -> F,
+    search: impl FnOnce(Rc<Exchange<M, N>>) -> F,
 ) -> Option<T>
 where
     M: Model<N>,
@@ -132,28 +135,24 @@ where
         let (search, output) = (search(exchange), &output);
         async move { output.set(Some(search.await)) }
     };
-    let mut run = Some(Box::new(Running::new(*start, search)));
+    let mut run = Some(Running::new(*start, search));
     Driver::<_, _, N>::new(OneLane::<R>::new(), model, solver, &mut |_| run.take(), interrupted).run();
     output.take()
 }
 
 /// A search that is in progress. The future `search` stores the result of the search itself.
 struct Running<'a, M: Model<N>, const N: usize> {
-    start: Start<M::Constants<f64>, N>,
-    exchange: Rc<Exchange<SumsOf<M, N>, N>>,
+    exchange: Rc<Exchange<M, N>>,
     search: Pin<Box<dyn Future<Output = ()> + 'a>>,
 }
-
-/// A search in progress, in a box because it moves between lanes and lists at the end of each period.
-type Run<'a, M, const N: usize> = Box<Running<'a, M, N>>;
 
 impl<'a, M: Model<N>, const N: usize> Running<'a, M, N> {
     fn new<F: Future<Output = ()> + 'a>(
         start: Start<M::Constants<f64>, N>,
-        search: impl FnOnce(Rc<Exchange<SumsOf<M, N>, N>>) -> F,
+        search: impl FnOnce(Rc<Exchange<M, N>>) -> F,
     ) -> Self {
-        let exchange = Rc::new(Exchange::new());
-        Running { start, search: Box::pin(search(exchange.clone())), exchange }
+        let exchange = Rc::new(Exchange::new(start));
+        Running { search: Box::pin(search(exchange.clone())), exchange }
     }
 }
 
@@ -161,7 +160,7 @@ impl<'a, M: Model<N>, const N: usize> Running<'a, M, N> {
 ///
 /// Returns the next search, or `None` if there is none at present. If the argument `idle` is true, the call may wait,
 /// and `None` is the end.
-type Source<'s, 'a, M, const N: usize> = &'s mut dyn FnMut(bool) -> Option<Run<'a, M, N>>;
+type Source<'s, 'a, M, const N: usize> = &'s mut dyn FnMut(bool) -> Option<Running<'a, M, N>>;
 
 /// The driver of searches: it continues the searches, and integrates the periods that the searches request.
 struct Driver<'a, 's, I, M: Model<N>, const N: usize> {
@@ -171,7 +170,7 @@ struct Driver<'a, 's, I, M: Model<N>, const N: usize> {
     source: Source<'s, 'a, M, N>,
     interrupted: Interrupt<'s>,
     /// Searches that wait for a period, by its kind. The first to wait is the first to continue.
-    waiting: [VecDeque<Run<'a, M, N>>; 4],
+    waiting: [VecDeque<Running<'a, M, N>>; 4],
     lane_use: LaneUse,
 }
 
@@ -252,11 +251,7 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
 
     /// Returns the queue of periods of one kind. The function `store` stores the totals over a period in the
     /// [`PeriodEnd`] of the period.
-    fn periods<'d, V>(
-        &'d mut self,
-        kind: Kind,
-        store: Store<V, SumsOf<M, N>, N>,
-    ) -> Periods<'a, 's, 'd, I, M, V, N> {
+    fn periods<'d, V>(&'d mut self, kind: Kind, store: Store<V, M, N>) -> Periods<'a, 's, 'd, I, M, V, N> {
         Periods { driver: self, kind, store, runs: [const { None }; MOST_LANES] }
     }
 
@@ -264,9 +259,9 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
     /// returns the search. Otherwise the search has ended, or it is added to the searches that wait.
     fn poll_search(
         &mut self,
-        mut run: Run<'a, M, N>,
+        mut run: Running<'a, M, N>,
         kind: Kind,
-    ) -> Option<(Run<'a, M, N>, Option<Restart<N>>)> {
+    ) -> Option<(Running<'a, M, N>, Option<Restart<N>>)> {
         if run.search.as_mut().poll(&mut Context::from_waker(Waker::noop())).is_ready() {
             return None;
         }
@@ -285,7 +280,7 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
     }
 
     /// Returns the next search that waits for a period of this kind, or that begins with one.
-    fn next(&mut self, kind: Kind, idle: bool) -> Option<(Run<'a, M, N>, Restart<N>)> {
+    fn next(&mut self, kind: Kind, idle: bool) -> Option<(Running<'a, M, N>, Restart<N>)> {
         loop {
             if let Some(run) = self.waiting[kind as usize].pop_front() {
                 let begin = run.exchange.request()?.begin?;
@@ -319,17 +314,16 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
     }
 }
 
-/// Function that stores the totals `V` over a period in the [`PeriodEnd`] of the period. Totals over the
-/// signals have the type `T`.
-type Store<V, T, const N: usize> = fn(&V, &mut PeriodEnd<T, N>, &Exchange<T, N>);
+/// Function that stores the totals `V` over a period in the [`PeriodEnd`] of the period.
+type Store<V, M, const N: usize> = fn(&V, &mut PeriodEnd<SumsOf<M, N>, N>, &Exchange<M, N>);
 
 /// The periods of one kind, as the queue of an ensemble whose totals over a period have the type `V`.
 struct Periods<'a, 's, 'd, I, M: Model<N>, V, const N: usize> {
     driver: &'d mut Driver<'a, 's, I, M, N>,
     kind: Kind,
-    store: Store<V, SumsOf<M, N>, N>,
+    store: Store<V, M, N>,
     /// Search of the period in each lane.
-    runs: [Option<Run<'a, M, N>>; MOST_LANES],
+    runs: [Option<Running<'a, M, N>>; MOST_LANES],
 }
 
 impl<I, M, V, const N: usize> Queue<M, V, N> for Periods<'_, '_, '_, I, M, V::Totals<f64>, N>
@@ -338,11 +332,9 @@ where
     M: Model<N>,
     V: Observer<M, N>,
 {
-    fn next(&mut self, lane: usize, idle: bool) -> Option<Start<M::Constants<f64>, N>> {
+    fn next(&mut self, lane: usize, idle: bool) -> Option<Start<&M::Constants<f64>, N>> {
         let (run, begin) = self.driver.next(self.kind, idle)?;
-        let start = begin.with(run.start.constants);
-        self.runs[lane] = Some(run);
-        Some(start)
+        Some(begin.with(&self.runs[lane].insert(run).exchange.start.constants))
     }
 
     fn ended(&mut self, lane: usize, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<Next<N>> {
@@ -350,7 +342,7 @@ where
         let mut period = PeriodEnd::new(*end.y, end.outcome);
         (self.store)(end.totals, &mut period, &run.exchange);
         if self.kind == Kind::Responses {
-            period.monodromy = monodromy(end.responses, &run.start.scale);
+            period.monodromy = monodromy(end.responses, &run.exchange.start.scale);
         }
         run.exchange.finish(period);
         let (run, begin) = self.driver.poll_search(run, self.kind)?;

@@ -5,9 +5,11 @@ use core::cell::Cell;
 use core::future::poll_fn;
 use core::task::Poll;
 
+use crate::measure::cycle::SumsOf;
 use crate::measure::multipliers::Matrix;
-use crate::ode::Outcome;
+use crate::model::Model;
 use crate::ode::ensemble::Restart;
+use crate::ode::{Outcome, Start};
 
 /// Quantities that are integrated over a period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -61,32 +63,34 @@ impl<T, const N: usize> PeriodEnd<T, N> {
 }
 
 /// Exchange between a search, which stores its request, and the driver, which stores the end of the period.
-pub(super) struct Exchange<T, const N: usize> {
+pub(super) struct Exchange<M: Model<N>, const N: usize> {
+    /// Start of the point.
+    pub(super) start: Start<M::Constants<f64>, N>,
     request: Cell<Option<Request<N>>>,
-    end: Cell<Option<PeriodEnd<T, N>>>,
+    end: Cell<Option<PeriodEnd<SumsOf<M, N>, N>>>,
     /// Allocated memory for sums over the signals, which the next measured period uses again.
-    spare: Cell<Option<Box<T>>>,
+    spare: Cell<Option<Box<SumsOf<M, N>>>>,
 }
 
-impl<T, const N: usize> Exchange<T, N> {
-    pub(super) fn new() -> Self {
-        Exchange { request: Cell::new(None), end: Cell::new(None), spare: Cell::new(None) }
+impl<M: Model<N>, const N: usize> Exchange<M, N> {
+    pub(super) fn new(start: Start<M::Constants<f64>, N>) -> Self {
+        Exchange { start, request: Cell::new(None), end: Cell::new(None), spare: Cell::new(None) }
     }
 
     /// Requests a period and waits for the end of the period. The search calls this function.
-    pub(super) async fn period(&self, request: Request<N>) -> PeriodEnd<T, N> {
+    pub(super) async fn period(&self, request: Request<N>) -> PeriodEnd<SumsOf<M, N>, N> {
         self.request.set(Some(request));
         poll_fn(|_| self.end.take().map_or(Poll::Pending, Poll::Ready)).await
     }
 
     /// Stores the box of `totals`, so that the next measured period needs no new memory. The search calls
     /// this function.
-    pub(super) fn reuse(&self, totals: Option<Box<T>>) {
+    pub(super) fn reuse(&self, totals: Option<Box<SumsOf<M, N>>>) {
         self.spare.set(totals);
     }
 
     /// Returns `totals` in a box, which is the stored box if there is one. The driver calls this function.
-    pub(super) fn boxed(&self, totals: T) -> Box<T> {
+    pub(super) fn boxed(&self, totals: SumsOf<M, N>) -> Box<SumsOf<M, N>> {
         match self.spare.take() {
             Some(mut spare) => {
                 *spare = totals;
@@ -102,7 +106,7 @@ impl<T, const N: usize> Exchange<T, N> {
     }
 
     /// Stores the end of the requested period. The driver calls this function.
-    pub(super) fn finish(&self, end: PeriodEnd<T, N>) {
+    pub(super) fn finish(&self, end: PeriodEnd<SumsOf<M, N>, N>) {
         self.end.set(Some(end));
     }
 }

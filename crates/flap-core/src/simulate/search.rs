@@ -133,8 +133,7 @@ pub(super) struct SearchResult<const N: usize> {
 struct Search<'a, M: Model<N>, const N: usize> {
     model: &'a M,
     solver: &'a SolverSettings,
-    start: Start<M::Constants<f64>, N>,
-    exchange: Rc<Exchange<SumsOf<M, N>, N>>,
+    exchange: Rc<Exchange<M, N>>,
     /// Symmetry of the orbit, or `None` if the search does not assume that the orbit is symmetric.
     symmetry: Option<Symmetry<M::Signals, N>>,
     /// Sizes of the states. The absolute tolerances are multiples of these sizes.
@@ -212,15 +211,13 @@ enum NoOrbit<const N: usize> {
 pub(super) fn settle<'a, M: Model<N>, const N: usize>(
     model: &'a M,
     solver: &'a SolverSettings,
-    start: Start<M::Constants<f64>, N>,
     nearby: bool,
-    exchange: Rc<Exchange<SumsOf<M, N>, N>>,
+    exchange: Rc<Exchange<M, N>>,
 ) -> impl Future<Output = SearchResult<N>> + 'a {
+    let start = &exchange.start;
     let mut search = Box::new(Search {
         model,
         solver,
-        start,
-        exchange,
         symmetry: if solver.symmetry { model.symmetry(&start.constants) } else { None },
         size: start.scale,
         tolerance_factor: start.tolerance_factor,
@@ -231,6 +228,7 @@ pub(super) fn settle<'a, M: Model<N>, const N: usize>(
         half_cycles: 0,
         rhs_evals: 0,
         rhs_evals_of_run: 0,
+        exchange,
     });
     async move { search.settle(nearby).await }
 }
@@ -363,7 +361,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// the equations are not symmetric, the search integrates whole periods from then on.
     fn check_symmetry(&mut self) {
         let Some(Symmetry { centre, .. }) = self.symmetry else { return };
-        let Start { constants: c, span, scale, .. } = &self.start;
+        let Start { constants: c, span, scale, .. } = &self.exchange.start;
         let rate = |t: f64, side: f64, y: &[f64; N]| slope(self.model, c, &input(self.model, c, t), side, y);
         let y = *self.march.state();
         let now = rate(0.0, 1.0, &y);
@@ -376,7 +374,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Resets the tolerances to the requested ones after a failed attempt.
     fn reset_tolerances(&mut self) {
-        self.tolerance_factor = self.start.tolerance_factor;
+        self.tolerance_factor = self.exchange.start.tolerance_factor;
         self.goal = self.solver.settle_tol;
         self.ending = Ending::Stopped;
     }
@@ -429,7 +427,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
             Tolerance::Loose => (LOOSE_RESIDUAL.max(self.goal), LOOSE_RESIDUAL),
             Tolerance::Row => (self.matrix_residual(), self.goal),
         };
-        let scale = self.start.scale;
+        let scale = self.exchange.start.scale;
         let mut y = *self.march.state();
         let mut march: Option<Marched<N>> = None;
         let mut last = f64::INFINITY;
@@ -493,7 +491,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         // With the monodromy matrix of the row's orbit, one step suffices.
         let enough =
             if is_known { f64::INFINITY } else { self.goal.max(MIDDLE_RESIDUAL * MIDDLE * self.rtol()) };
-        let mut chord = Chord::new(near.orbit, &self.start.scale);
+        let mut chord = Chord::new(near.orbit, &self.exchange.start.scale);
         // A period that fails at this tolerance does not make the row fail.
         let ending = self.ending;
         let found =
@@ -526,7 +524,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Moves from a nearby orbit to the orbit of the row's tolerance, in chord steps, and measures its period.
     async fn approach(&mut self, near: &Near<N>) -> Result<Measured<SumsOf<M, N>, N>, NoOrbit<N>> {
-        let scale = self.start.scale;
+        let scale = self.exchange.start.scale;
         let Near { monodromy: mut matrix, mut residual, mut step, mut is_final, .. } = *near;
         let mut chord = Chord::new(near.orbit, &scale);
         // Residual at which the monodromy matrix of the row's orbit is computed, and the last residual at which it
@@ -656,7 +654,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// Integrates a period or half a period. If the integration fails, the function stores the reason in
     /// `ending` and returns `None`.
     async fn period(&mut self, kind: Kind, begin: Option<Restart<N>>) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
-        let halves = if begin.is_some_and(|begin| begin.span < self.start.span) { 1 } else { 2 };
+        let halves = if begin.is_some_and(|begin| begin.span < self.exchange.start.span) { 1 } else { 2 };
         if begin.is_some() {
             self.rhs_evals_of_run = 0;
         }
@@ -676,7 +674,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Begins at the initial state, with the requested tolerances.
     fn begin(&mut self, nearby: bool, max_cycles: u32) {
-        let Start { y, scale, .. } = self.start;
+        let Start { y, scale, .. } = self.exchange.start;
         self.march = March::new(&y, &scale, self.solver, nearby, max_cycles);
         self.size = scale;
         self.reset_tolerances();
@@ -685,7 +683,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// Returns the start of a period at `y`, with `factor` times the tolerances of the row.
     fn restart_at(&self, y: &[f64; N], factor: f64) -> Restart<N> {
         let tolerance_factor = self.tolerance_factor * factor;
-        let Start { span, scale, .. } = self.start;
+        let Start { span, scale, .. } = self.exchange.start;
         Start { constants: (), y: *y, span, scale: self.size, tolerance_factor, change: scale }
     }
 
@@ -709,7 +707,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Returns the smallest allowed factor on the requested tolerances.
     fn finest(&self) -> f64 {
-        self.start.tolerance_factor * FINEST.max(FINEST_RTOL / self.solver.rtol).min(1.0)
+        self.exchange.start.tolerance_factor * FINEST.max(FINEST_RTOL / self.solver.rtol).min(1.0)
     }
 
     fn is_finest(&self) -> bool {
@@ -732,11 +730,11 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     fn row(&self, measured: &Measured<SumsOf<M, N>, N>, middle: Option<&SumsOf<M, N>>) -> (Row, f64) {
         let Measured { orbit: Orbit { y, .. }, monodromy, residual, end } = measured;
         let Some(sums) = end.sums.as_deref() else { return (self.unsettled(), 0.0) };
-        let Search { model, solver, start, .. } = self;
+        let (model, solver, start) = (self.model, self.solver, &self.exchange.start);
         let orbit = MeasuredOrbit { y, sums, middle, switches: end.outcome.switches, rtol: self.rtol() };
-        let (row, error) = orbit_row::row_of(*model, solver, start, &orbit);
+        let (row, error) = orbit_row::row_of(model, solver, start, &orbit);
         let is_periodic = row.status == Status::Periodic;
-        let at_rest = is_periodic && orbit_row::is_at_rest(*model, start, &orbit);
+        let at_rest = is_periodic && orbit_row::is_at_rest(model, start, &orbit);
         let multiplier = monodromy.as_ref().map(spectral_radius);
         let multiplier = multiplier.map(|largest| largest.powi(self.maps_per_period()));
         // In still air, the drag of a wing at rest has no linear part, so rounding decides whether the multiplier is

@@ -73,7 +73,7 @@ pub(super) fn row<M: Model<N>, R: Scalar, const N: usize>(
         Err(error) => return Row::invalid(error),
     };
     let settled = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| {
-        settle(model, solver, start, from.is_some(), exchange)
+        settle(model, solver, from.is_some(), exchange)
     });
     settled.map_or_else(|| Row::empty(Status::Unsettled), |settled| settled.row)
 }
@@ -91,7 +91,7 @@ pub(super) fn trajectory<M: Model<N>, R: Scalar, const N: usize>(
     let mut start = start_at(model, solver, values, from)?;
     if settled {
         let settled = run_alone::<_, R, _, _, N>(model, solver, &start, interrupted, |exchange| {
-            settle(model, solver, start, from.is_some(), exchange)
+            settle(model, solver, from.is_some(), exchange)
         });
         let SearchResult { row, orbit } = settled.ok_or(Unfinished::Interrupted)?;
         let Some(orbit) = orbit.filter(|_| row.status == Status::Periodic) else {

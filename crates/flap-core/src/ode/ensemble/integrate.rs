@@ -96,11 +96,11 @@ struct List<'a, C, T, const N: usize> {
 impl<O: Ode<N>, V: Observer<O, N>, const N: usize> Queue<O, V, N>
     for List<'_, O::Constants<f64>, V::Totals<f64>, N>
 {
-    fn next(&mut self, lane: usize, _idle: bool) -> Option<Start<O::Constants<f64>, N>> {
-        let start = *self.starts.get(self.begun)?;
+    fn next(&mut self, lane: usize, _idle: bool) -> Option<Start<&O::Constants<f64>, N>> {
+        let start = self.starts.get(self.begun)?;
         self.lanes[lane] = (self.begun, self.spans);
         self.begun += 1;
-        Some(start)
+        Some(start.with(&start.constants))
     }
 
     fn ended(&mut self, lane: usize, end: SpanEnd<'_, V::Totals<f64>, N>) -> Option<Next<N>> {

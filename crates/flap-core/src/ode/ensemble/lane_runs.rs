@@ -51,7 +51,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         token: R::Token,
         observer: &V,
         tolerances: &Tolerances,
-        start: &Start<O::Constants<f64>, N>,
+        start: &Start<&O::Constants<f64>, N>,
     ) -> Self {
         let number = R::splat(token, 0.0);
         let Start { constants, y, span, scale, tolerance_factor, change } = start;
@@ -82,8 +82,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
     }
 
     /// Loads a run into a lane.
-    pub(super) fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
-        self.constants.set(lane, &start.constants);
+    pub(super) fn load(&mut self, lane: usize, start: &Start<&O::Constants<f64>, N>, observer: &V) {
+        self.constants.set(lane, start.constants);
         self.restart(lane, start, observer);
     }
 

@@ -44,7 +44,7 @@ pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
     ///
     /// If `idle` is true, no lane has a run. If no lane has a run, the function may wait for a run, and the
     /// result `None` ends the ensemble.
-    fn next(&mut self, lane: usize, idle: bool) -> Option<Start<O::Constants<f64>, N>>;
+    fn next(&mut self, lane: usize, idle: bool) -> Option<Start<&O::Constants<f64>, N>>;
 
     /// Receives the run in a lane at the end of a time span, or after a failure of the run. Returns the next
     /// task of the run, or `None` to remove the run from the lane.

@@ -58,11 +58,11 @@ fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: us
     tolerances: &Tolerances,
     queue: &mut dyn Queue<O, V, N>,
 ) -> Occupancy {
-    let Some(first) = queue.next(0, true) else { return Occupancy::default() };
     // The queue's callbacks may call this again, so it enters a function with these instructions enabled.
     simd.vectorize(
         #[inline(always)]
         || {
+            let Some(first) = queue.next(0, true) else { return Occupancy::default() };
             Schedule::<Vector<S>, O, V, N, D>::new(simd, observer, tolerances, &first)
                 .drive(simd, ode, observer, queue)
         },
@@ -91,7 +91,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
         token: R::Token,
         observer: &V,
         tolerances: &Tolerances,
-        first: &Start<O::Constants<f64>, N>,
+        first: &Start<&O::Constants<f64>, N>,
     ) -> Self {
         const { assert!(R::LANES <= MOST_LANES) };
         let mut schedule = Schedule {
@@ -107,7 +107,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Sch
     }
 
     /// Loads a run into a lane.
-    fn load(&mut self, lane: usize, start: &Start<O::Constants<f64>, N>, observer: &V) {
+    fn load(&mut self, lane: usize, start: &Start<&O::Constants<f64>, N>, observer: &V) {
         self.runs.load(lane, start, observer);
         self.begin(lane);
     }
