@@ -1,4 +1,4 @@
-//! Converts motions of single points to columns.
+//! Converts the motion of one simulated point over time to a Python dictionary of columns.
 
 use flap_core::simulate::{Simulator, Trajectory};
 use flap_sweep::table::layout::{Cell, CellKind};

@@ -12,8 +12,8 @@ const PACKAGES: [&str; 8] =
 /// Possible lock files: of a published package, and of the repository.
 const LOCKS: [&str; 2] = ["Cargo.lock", "../../Cargo.lock"];
 
-/// Prints the hash of the current package for cargo, as the environment variable `FLAP_SOURCES` of 16 hexadecimal
-/// digits.
+/// Prints a line with which cargo sets the environment variable `FLAP_SOURCES`. The value is the hash of the
+/// current package, in 16 hexadecimal digits.
 ///
 /// # Errors
 /// The error of the operating system if a source or the lock file cannot be read.

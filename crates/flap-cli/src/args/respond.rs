@@ -9,7 +9,7 @@ use super::options::{BeginArgs, ChangeArgs, OutputFormat, SolverArgs};
 pub(crate) struct RespondArgs {
     /// Preset, device file or grid file; `-` reads a grid from stdin
     ///
-    /// The grid may have an axis for the followed parameter. Each combination of values of the axes without
+    /// The grid may have an axis for the followed parameter, which is the parameter of `--along`. Each combination of values of the axes without
     /// the followed parameter is one design with one curve.
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,

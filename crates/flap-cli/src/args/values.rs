@@ -43,7 +43,7 @@ pub(super) fn target(text: &str) -> Result<(String, String), String> {
     assignment(text).map_err(|_| "write COLUMN=VALUE, such as torque_pitch=0, or hover".to_owned())
 }
 
-/// Parses a length (m), zero or more.
+/// Parses a length (m), which must not be negative.
 pub(super) fn length(text: &str) -> Result<f64, String> {
     size(text, "m", "2 mm")
 }

@@ -290,8 +290,8 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         starts
     }
 
-    /// Returns the start of a period at the state `y`, and one further start for each component of `y`, which
-    /// changes only this component.
+    /// Returns N + 1 starts of a period. The first start has the state `y`. In each of the others, one component
+    /// of `y` is increased by a small step.
     fn around(&self, y: [f64; N]) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = vec![Start { y, ..*self.start }; N + 1];
         for i in 0..N {

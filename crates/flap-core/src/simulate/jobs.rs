@@ -49,7 +49,8 @@ pub trait Jobs {
     }
 }
 
-/// Numbers of steps that show how many SIMD lanes were in use, for each kind of drive period.
+/// Use of the SIMD lanes for each kind of drive period: the number of attempted steps in lanes with a run, and
+/// in all lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LaneUse {
     /// Periods in which only the states are integrated: the march and chord steps.

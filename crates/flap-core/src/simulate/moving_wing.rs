@@ -10,7 +10,7 @@ use crate::parameter::Invalid;
 /// At each instant, the equations assume that the velocity and the rates of the shoulder are constant. The
 /// acceleration of the shoulder therefore has no effect.
 pub trait MovingWing {
-    /// Returns the drive period (s). A period begins at time zero, with the phase zero of the drive.
+    /// Returns the drive period (s). At time zero, a period begins and the phase of the drive is zero.
     fn period(&self) -> f64;
 
     /// Returns the typical size of each state.

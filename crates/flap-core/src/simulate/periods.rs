@@ -77,7 +77,8 @@ impl<M: Model<N>, const N: usize> Exchange<M, N> {
         Exchange { start, request: Cell::new(None), end: Cell::new(None), spare: Cell::new(None) }
     }
 
-    /// Requests a period and waits for the end of the period. The search calls this function.
+    /// Requests the integration of a period from the driver, and waits until the driver has stored the result.
+    /// The search calls this function.
     pub(super) async fn period(&self, request: Request<N>) -> PeriodEnd<SumsOf<M, N>, N> {
         self.request.set(Some(request));
         poll_fn(|_| self.end.take().map_or(Poll::Pending, Poll::Ready)).await

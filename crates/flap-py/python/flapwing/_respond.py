@@ -37,7 +37,7 @@ def respond(
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset or a grid (see `Grid`). The grid can have an axis for the followed parameter. Each combination of the
+        A preset or a grid (see `Grid`). The grid can have an axis for the followed parameter, which is the argument `parameter`. Each combination of the
         values of all other axes is one design with one curve.
     parameter : str, optional
         The parameter that rises and falls. The default of `parameter` is ``"drive_frequency"``.

@@ -307,7 +307,7 @@ pub struct Along {
     pub parameter: usize,
     /// At least two values of the parameter, in ascending order.
     pub values: Vec<f64>,
-    /// Largest allowed error of the ends of bistable bands, which must be more than zero.
+    /// Largest allowed error of the ends of bistable bands. This error must be more than zero.
     pub tolerance: f64,
     /// True if the unstable orbits in bistable bands are computed.
     pub unstable: bool,

@@ -12,11 +12,11 @@ use crate::plan::{Admission, Along, Plan};
 use crate::resonance::sequence::{self, Sequence, SequenceSource};
 use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
-/// Lower and upper limit of the number of responses per thread that are computed ahead of the last returned
-/// response.
+/// Smallest and largest window per thread. The window is the largest number of responses that may be
+/// computed beyond the last returned response.
 ///
-/// With fewer responses than the lower limit, some lanes would be empty. With more responses than the upper
-/// limit, the memory could be too small.
+/// With a window below the smallest value, some lanes would be empty. With a window above the largest value,
+/// the memory could be too small.
 const AHEAD: [usize; 2] = [16, 128];
 
 /// The responses of the designs of a plan. The designs are the selected points of the plan. Designs that
