@@ -34,8 +34,8 @@ for crate in "${crates[@]}"; do
     for file in "${needed[@]}"; do
         [[ -e $sources/$crate-$version/$file ]] || die "the package of $crate lacks $file"
     done
-    others=$(cd -- "$sources/$crate-$version" && find . -type f ! -path './src/*.rs' ! -path './web/*.js' ! -path './web/*.css' \
-        ! -path './web/*.html' ! -path ./web/uplot/LICENSE ! -name 'LICENSE-*' ! -name README.md ! -name 'Cargo.*' \
+    others=$(cd -- "$sources/$crate-$version" && find . -type f ! -path './src/*.rs' ! -path './src/*.c' ! -path './web/*.js' \
+        ! -path './web/*.css' ! -path './web/*.html' ! -path ./web/uplot/LICENSE ! -name 'LICENSE-*' ! -name README.md ! -name 'Cargo.*' \
         ! -path ./build.rs ! -path ./.cargo_vcs_info.json)
     [[ -z $others ]] || die "the package of $crate has files that it does not need: $others"
 done

@@ -28,6 +28,7 @@ SEARCHES = {
     "derivative": ["how-to/derivatives"],
     "floquet": ["glossary", "models/numerics"],
     "matlab": ["how-to/questions", "how-to/hover"],
+    "co-simulation": ["how-to/hover"],
     "torque": ["how-to/vehicle", "models/vehicle"],
     "transmission ratio": ["glossary"],
     "rtol": ["models/numerics", "glossary"],

@@ -70,7 +70,7 @@ pub(crate) struct VehicleArgs {
     #[arg(long)]
     pub(crate) frozen: bool,
 
-    /// Write the linear model about hover in SI units: a .json, .mat (MATLAB) or .py file (python-control)
+    /// Write the linear model about hover in SI units: a .json, .mat (MATLAB), .py (python-control) or .fmu file (FMI 3.0)
     #[arg(long, value_name = "FILE")]
     pub(crate) export: Option<PathBuf>,
 

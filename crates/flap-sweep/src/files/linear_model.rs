@@ -1,4 +1,4 @@
-//! Files in JSON, MATLAB and Python with a linear hover model for other programs. All numbers are in SI units.
+//! Files with a linear hover model for other programs: JSON, MATLAB, Python and FMU. All numbers are in SI units.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -7,6 +7,7 @@ use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator as _;
 use nalgebra::DMatrix;
 
+use super::fmu::Fmu;
 use super::matlab::{self, Variable};
 use crate::notation::text;
 use crate::vehicle::control::{Effectiveness, VehicleRun};
@@ -51,11 +52,13 @@ pub enum LinearFormat {
     Matlab,
     /// Python module.
     Python,
+    /// Functional mock-up unit of FMI 3.0, with source code in C.
+    Fmu,
 }
 
 impl LinearFormat {
     /// Endings of file names, for messages.
-    pub const ENDINGS: &str = ".json, .mat or .py";
+    pub const ENDINGS: &str = ".json, .mat, .py or .fmu";
 
     /// Returns the format of a file by the ending of its name; `None` if the ending belongs to no format.
     pub fn of(path: &Path) -> Option<LinearFormat> {
@@ -63,6 +66,7 @@ impl LinearFormat {
             "json" => Some(LinearFormat::Json),
             "mat" => Some(LinearFormat::Matlab),
             "py" => Some(LinearFormat::Python),
+            "fmu" => Some(LinearFormat::Fmu),
             _ => None,
         }
     }
@@ -119,6 +123,7 @@ impl LinearModel {
             LinearFormat::Json => target.write_all(json(&variables).as_bytes()),
             LinearFormat::Matlab => matlab::write(&variables, target),
             LinearFormat::Python => target.write_all(python(&variables).as_bytes()),
+            LinearFormat::Fmu => target.write_all(&self.fmu().archive()?),
         }
     }
 
@@ -135,8 +140,7 @@ impl LinearModel {
         };
         let values = self.inputs.iter().map(|input| input.value).collect();
         let damping = DMatrix::from_fn(6, 6, |i, j| self.hover.damping[(i, j)]);
-        let body = &self.hover.body;
-        vec![
+        let mut variables = vec![
             ("A", Variable::Matrix(self.hover.a.clone())),
             ("B", Variable::Matrix(self.hover.b.clone())),
             ("C", Variable::Matrix(DMatrix::identity(size, size))),
@@ -157,16 +161,46 @@ impl LinearModel {
             ("motion_units", texts(&motion_units)),
             ("design", Variable::Text(self.design.clone())),
             ("body_response", Variable::Text(self.response.clone())),
-            ("drive_frequency", Variable::Number(self.frequency)),
-            ("floquet_max", Variable::Number(self.floquet_max)),
             ("about", Variable::Vector(self.about.to_vec())),
-            ("total_mass", Variable::Number(body.mass)),
-            ("body_inertia_roll", Variable::Number(body.inertia[0])),
-            ("body_inertia_pitch", Variable::Number(body.inertia[1])),
-            ("body_inertia_yaw", Variable::Number(body.inertia[2])),
-            ("body_inertia_product", Variable::Number(body.product)),
-            ("gravity", Variable::Number(body.gravity)),
+        ];
+        variables.extend(self.numbers().map(|(name, _, value)| (name, Variable::Number(value))));
+        variables
+    }
+
+    /// Returns names, units and values of numbers of the operating point and of the body.
+    fn numbers(&self) -> [(&'static str, &'static str, f64); 8] {
+        let body = &self.hover.body;
+        [
+            ("drive_frequency", "Hz", self.frequency),
+            ("floquet_max", "", self.floquet_max),
+            ("total_mass", "kg", body.mass),
+            ("body_inertia_roll", "kg*m^2", body.inertia[0]),
+            ("body_inertia_pitch", "kg*m^2", body.inertia[1]),
+            ("body_inertia_yaw", "kg*m^2", body.inertia[2]),
+            ("body_inertia_product", "kg*m^2", body.product),
+            ("gravity", "m/s^2", body.gravity),
         ]
+    }
+
+    /// Returns the model with its operating point as constants.
+    fn fmu(&self) -> Fmu<'_> {
+        let inputs = self.inputs.iter();
+        let values =
+            inputs.clone().map(|input| (format!("input_values.{}", input.name), &*input.unit, input.value));
+        let numbers =
+            self.numbers().map(|(name, unit, value)| (format!("operating_point.{name}"), unit, value));
+        Fmu {
+            description: format!(
+                "Linear hover model of {}, whose inputs are changes from input_values. The response of the wings to the \
+                 motion of the body is {}.",
+                self.design, self.response
+            ),
+            a: &self.hover.a,
+            b: &self.hover.b,
+            states: self.hover.states(),
+            inputs: inputs.map(|input| (&*input.name, &*input.unit)).collect(),
+            constants: values.chain(numbers).filter(|(_, _, value)| value.is_finite()).collect(),
+        }
     }
 }
 
@@ -306,6 +340,11 @@ mod tests {
         let module = String::from_utf8(file(LinearFormat::Python)).unwrap();
         assert!(module.contains("inputs = [\"amplitude\", \"bias\"]\n"), "{module}");
         assert!(file(LinearFormat::Matlab).starts_with(b"MATLAB 5.0 MAT-file"));
+        let archive = file(LinearFormat::Fmu);
+        assert_eq!(archive, file(LinearFormat::Fmu));
+        let archive = String::from_utf8_lossy(&archive);
+        let input = r#"<Float64 name="bias" valueReference="14" unit="V" causality="input""#;
+        assert!(archive.contains(input) && archive.contains("bimorph from &quot;µ&quot;"), "{archive}");
     }
 
     #[test]
@@ -313,8 +352,8 @@ mod tests {
         let of = |name: &str| LinearFormat::of(Path::new(name));
         assert_eq!(of("folder.py/model.mat"), Some(LinearFormat::Matlab));
         assert_eq!(
-            (of("model.json"), of("model.py")),
-            (Some(LinearFormat::Json), Some(LinearFormat::Python))
+            (of("model.json"), of("model.py"), of("model.fmu")),
+            (Some(LinearFormat::Json), Some(LinearFormat::Python), Some(LinearFormat::Fmu))
         );
         assert_eq!((of("model"), of("model.csv")), (None, None));
     }

@@ -10,6 +10,7 @@
 pub mod beside;
 pub mod csv_sink;
 pub mod disk;
+mod fmu;
 pub mod inputs;
 pub mod integrity;
 pub mod job;

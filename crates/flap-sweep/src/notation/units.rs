@@ -69,6 +69,14 @@ fn parse_trimmed(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     }
 }
 
+/// Returns the exponents of the SI base units and of the radian in an SI unit, such as `m/s^2`.
+///
+/// Returns `None` for units that flap does not know, and for units with a factor, such as `mm`.
+pub(crate) fn si_powers(unit: &str) -> Option<[(&'static str, i32); 5]> {
+    let unit = unit::parse(unit).ok()?;
+    (unit.shift == 0 && unit.above == unit.below).then(|| unit.dimension.powers())
+}
+
 /// Returns the value of the quantity `text` in the unit `unit`. `unit` need not be an SI unit without a
 /// prefix: for example, `mN` and `deg` are allowed.
 ///

@@ -205,6 +205,12 @@ impl Dimension {
         Dimension { base, radian: add(self.radian, other.radian), hertz: add(self.hertz, other.hertz) }
     }
 
+    /// Returns the exponents of the SI base units and of the radian.
+    pub(super) fn powers(self) -> [(&'static str, i32); 5] {
+        let [metre, kilogram, second, ampere] = self.base;
+        [("m", metre), ("kg", kilogram), ("s", second), ("A", ampere), ("rad", self.radian)]
+    }
+
     /// Returns true if a value with this dimension is allowed where a value with the dimension `wanted` is
     /// expected.
     pub(super) fn fits(self, wanted: Dimension) -> bool {
@@ -224,17 +230,12 @@ impl fmt::Display for Dimension {
         if let Some((_, name)) = NAMES.iter().find(|(dimension, _)| *dimension == plain) {
             return f.write_str(name);
         }
-        let symbols = ["m", "kg", "s", "A"];
-        let powers: Vec<String> = symbols
-            .iter()
-            .zip(self.base)
-            .filter(|(_, exponent)| *exponent != 0)
-            .map(|(symbol, exponent)| match exponent {
-                1 => (*symbol).to_owned(),
-                _ => format!("{symbol}^{exponent}"),
-            })
-            .collect();
-        f.write_str(&powers.join("*"))
+        let powers = plain.powers().into_iter().filter(|(_, exponent)| *exponent != 0);
+        let powers = powers.map(|(symbol, exponent)| match exponent {
+            1 => symbol.to_owned(),
+            _ => format!("{symbol}^{exponent}"),
+        });
+        f.write_str(&powers.collect::<Vec<_>>().join("*"))
     }
 }
 

@@ -1,0 +1,179 @@
+//! Functional mock-up units (FMUs, version 3.0 of the standard) of linear models.
+//!
+//! An FMU contains source code in C, which users or importers compile. Source: Modelica Association, Functional Mock-up
+//! Interface Specification, version 3.0, sections 2.4 (model description) and 2.5 (archive).
+
+mod archive;
+
+use std::collections::BTreeSet;
+use std::io;
+
+use nalgebra::DMatrix;
+
+use crate::notation::{text, units};
+
+/// Code of all models.
+const CODE: &str = include_str!("fmu.c");
+
+const BUILD_DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
+<fmiBuildDescription fmiVersion="3.0">
+  <BuildConfiguration modelIdentifier="hover">
+    <SourceFileSet language="C99">
+      <SourceFile name="fmu.c"/>
+    </SourceFileSet>
+  </BuildConfiguration>
+</fmiBuildDescription>
+"#;
+
+/// A linear model x' = A x + B s with the outputs x.
+pub(super) struct Fmu<'m> {
+    /// Description of the model.
+    pub(super) description: String,
+    /// State matrix.
+    pub(super) a: &'m DMatrix<f64>,
+    /// Input matrix.
+    pub(super) b: &'m DMatrix<f64>,
+    /// Names and units of the states.
+    pub(super) states: &'m [(&'m str, &'m str)],
+    /// Names and units of the inputs.
+    pub(super) inputs: Vec<(&'m str, &'m str)>,
+    /// Names, units and values of constants, at least one.
+    pub(super) constants: Vec<(String, &'m str, f64)>,
+}
+
+impl Fmu<'_> {
+    /// Returns the archive. Equal models have equal bytes.
+    ///
+    /// # Errors
+    /// An error if the archive is too large for the format.
+    pub(super) fn archive(&self) -> io::Result<Vec<u8>> {
+        let numbers = self.numbers();
+        let token = text::hash(&[&self.description(""), &numbers, CODE].concat());
+        archive::archive(&[
+            ("modelDescription.xml", &self.description(&token)),
+            ("sources/buildDescription.xml", BUILD_DESCRIPTION),
+            ("sources/fmu.c", CODE),
+            ("sources/model.h", &format!("#define TOKEN \"{token}\"\n{numbers}")),
+        ])
+    }
+
+    /// Returns the numbers of the model, in C.
+    fn numbers(&self) -> String {
+        let list = |values: &mut dyn Iterator<Item = f64>| {
+            format!("{{{}}}", values.map(text::float).collect::<Vec<_>>().join(", "))
+        };
+        let row = |i: usize| list(&mut self.a.row(i).iter().chain(&self.b.row(i)).copied());
+        let rows: Vec<String> = (0..self.states.len()).map(row).collect();
+        format!(
+            "#define STATES {}\n#define INPUTS {}\n#define NORM {}\n\
+             static const double MATRIX[STATES][STATES + INPUTS] = {{\n    {},\n}};\n\
+             static const double CONSTANTS[] = {};\n",
+            self.states.len(),
+            self.inputs.len(),
+            text::float(self.a.abs().column_sum().max()),
+            rows.join(",\n    "),
+            list(&mut self.constants.iter().map(|(_, _, value)| *value)),
+        )
+    }
+
+    /// Returns the model description, in XML.
+    fn description(&self, token: &str) -> String {
+        // Names, units and other attributes in the order of the value references.
+        let mut variables = vec![("time".to_owned(), "s".to_owned(), continuous("independent"))];
+        let first_state = variables.len();
+        variables.extend(self.states.iter().map(|(name, unit)| {
+            let start = r#" initial="exact" start="0.0""#;
+            ((*name).to_owned(), (*unit).to_owned(), continuous("output") + start)
+        }));
+        variables.extend(self.inputs.iter().map(|(name, unit)| {
+            let change = format!(r#" start="0.0" description="change from input_values.{}""#, escaped(name));
+            ((*name).to_owned(), (*unit).to_owned(), continuous("input") + &change)
+        }));
+        let first_derivative = variables.len();
+        variables.extend(self.states.iter().zip(first_state..).map(|((name, unit), state)| {
+            let per_second = unit.strip_suffix("/s").map(|unit| format!("{unit}/s^2"));
+            let unit = per_second.unwrap_or_else(|| format!("{unit}/s"));
+            (format!("der({name})"), unit, format!(r#"{} derivative="{state}""#, continuous("local")))
+        }));
+        variables.extend(self.constants.iter().map(|(name, unit, value)| {
+            let start =
+                format!(r#"causality="local" variability="constant" start="{}""#, text::float(*value));
+            (name.clone(), (*unit).to_owned(), start)
+        }));
+        let used_units: BTreeSet<&str> = variables.iter().map(|(_, unit, _)| &**unit).collect();
+        let used_units = used_units.into_iter().filter(|unit| !unit.is_empty());
+        let elements = variables.iter().enumerate().map(|(reference, (name, unit, attributes))| {
+            let name = escaped(name);
+            let unit = if unit.is_empty() { String::new() } else { format!(r#" unit="{}""#, escaped(unit)) };
+            format!("    <Float64 name=\"{name}\" valueReference=\"{reference}\"{unit} {attributes}/>\n")
+        });
+        let states = self.states.len();
+        // Without dependencies, importers would assume that the outputs depend on the inputs.
+        let outputs = (first_state..first_state + states)
+            .map(|state| format!("    <Output valueReference=\"{state}\" dependencies=\"{state}\"/>\n"));
+        let derivatives = |element: &'static str| {
+            (first_derivative..first_derivative + states)
+                .map(move |derivative| format!("    <{element} valueReference=\"{derivative}\"/>\n"))
+        };
+        let structure =
+            outputs.chain(derivatives("ContinuousStateDerivative")).chain(derivatives("InitialUnknown"));
+        format!(
+            r#"<?xml version="1.0" encoding="UTF-8"?>
+<fmiModelDescription fmiVersion="3.0" modelName="hover" instantiationToken="{token}"
+  description="{}" generationTool="flap {}" variableNamingConvention="structured">
+  <ModelExchange modelIdentifier="hover" providesDirectionalDerivatives="true"/>
+  <CoSimulation modelIdentifier="hover" providesDirectionalDerivatives="true" canHandleVariableCommunicationStepSize="true"/>
+  <UnitDefinitions>
+{}  </UnitDefinitions>
+  <LogCategories>
+    <Category name="logStatusError"/>
+  </LogCategories>
+  <ModelVariables>
+{}  </ModelVariables>
+  <ModelStructure>
+{}  </ModelStructure>
+</fmiModelDescription>
+"#,
+            escaped(&self.description),
+            env!("CARGO_PKG_VERSION"),
+            used_units.map(unit_definition).collect::<String>(),
+            elements.collect::<String>(),
+            structure.collect::<String>(),
+        )
+    }
+}
+
+fn continuous(causality: &str) -> String {
+    format!(r#"causality="{causality}" variability="continuous""#)
+}
+
+/// Returns the definition of a unit by SI base units; without base units if flap does not know the unit.
+fn unit_definition(unit: &str) -> String {
+    let base = units::si_powers(unit).map(|powers| {
+        let powers = powers.iter().filter(|(_, exponent)| *exponent != 0);
+        let powers = powers.map(|(symbol, exponent)| format!(r#" {symbol}="{exponent}""#));
+        format!("<BaseUnit{}/>", powers.collect::<Vec<_>>().concat())
+    });
+    format!("    <Unit name=\"{}\">{}</Unit>\n", escaped(unit), base.unwrap_or_default())
+}
+
+/// Returns a text as the value of an attribute in XML.
+fn escaped(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_in_base_units() {
+        let stiffness = r#"    <Unit name="N*m/rad"><BaseUnit m="2" kg="1" s="-2" rad="-1"/></Unit>"#;
+        assert_eq!(unit_definition("N*m/rad"), format!("{stiffness}\n"));
+        // A unit with a factor, and a unit of another program.
+        for unit in ["mm", "a<b"] {
+            assert_eq!(unit_definition(unit), format!("    <Unit name=\"{}\"></Unit>\n", escaped(unit)));
+        }
+        assert_eq!(escaped("a<\"b\"&c"), "a&lt;&quot;b&quot;&amp;c");
+    }
+}
