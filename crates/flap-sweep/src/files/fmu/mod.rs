@@ -3,12 +3,12 @@
 //! An FMU contains source code in C, which users or importers compile. Source: Modelica Association, Functional Mock-up
 //! Interface Specification, version 3.0, sections 2.4 (model description) and 2.5 (archive).
 
-mod archive;
-
 use std::collections::BTreeSet;
-use std::io;
+use std::io::{self, Cursor, Write as _};
 
 use nalgebra::DMatrix;
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, DateTime, ZipWriter};
 
 use crate::notation::{text, units};
 
@@ -49,7 +49,7 @@ impl Fmu<'_> {
     pub(super) fn archive(&self) -> io::Result<Vec<u8>> {
         let numbers = self.numbers();
         let token = text::hash(&[&self.description(""), &numbers, CODE].concat());
-        archive::archive(&[
+        archive(&[
             ("modelDescription.xml", &self.description(&token)),
             ("sources/buildDescription.xml", BUILD_DESCRIPTION),
             ("sources/fmu.c", CODE),
@@ -141,6 +141,19 @@ impl Fmu<'_> {
             structure.collect::<String>(),
         )
     }
+}
+
+/// Returns a ZIP archive of files with the given names and texts. The date of all files is 1980-01-01, so equal files
+/// give equal bytes.
+fn archive(files: &[(&str, &str)]) -> io::Result<Vec<u8>> {
+    let stored = SimpleFileOptions::default().compression_method(CompressionMethod::Stored);
+    let options = stored.last_modified_time(DateTime::default());
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, text) in files {
+        archive.start_file(*name, options)?;
+        archive.write_all(text.as_bytes())?;
+    }
+    Ok(archive.finish()?.into_inner())
 }
 
 fn continuous(causality: &str) -> String {
