@@ -1,4 +1,4 @@
-//! Motion of the body through still air, and the motion of a wing's sections that results from it.
+//! Motion of the body through still air, and the resulting motion of the sections of a wing.
 //!
 //! While the motion of the wings settles, the velocity and the angular velocity of the body are constant in
 //! body axes. `docs/models/body-motion.md` derives the equations.
@@ -73,7 +73,8 @@ impl BodyParameters {
         "body_rate_yaw",
     ];
 
-    /// Returns the kind of terms that the motion of the body adds to the equations of a wing.
+    /// Returns the equations of a wing that contain the motion of the body: no equations, the equations for
+    /// the loads, or all equations.
     pub fn terms(&self) -> BodyTerms {
         let BodyMotion { velocity, rate } = self.motion();
         if velocity.into_iter().chain(rate).all(|component| component == 0.0) {
@@ -85,7 +86,7 @@ impl BodyParameters {
         }
     }
 
-    /// Returns the velocity and the angular velocity of the body, in the form that the equations use.
+    /// Returns the velocity vector and the angular velocity vector of the body.
     pub fn motion(&self) -> BodyMotion<f64> {
         BodyMotion {
             velocity: [self.body_velocity_forward, self.body_velocity_left, self.body_velocity_up],
@@ -112,8 +113,8 @@ impl BodyParameters {
         Ok(())
     }
 
-    /// Returns a copy of `values` in which the response is "passive". With this response, the motion of the
-    /// body changes lift and drag.
+    /// Returns a copy of `values` in which the response is "passive". With "passive", the motion of the body
+    /// changes lift and drag.
     pub(crate) fn passive(parameters: &[Parameter<'_>], values: &[f64]) -> Vec<f64> {
         let mut values = values.to_vec();
         if let Some(index) = Parameter::index(parameters, RESPONSE) {

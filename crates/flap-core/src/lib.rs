@@ -5,13 +5,12 @@
 //! Each layer uses only the layers that are above it in this list:
 //!
 //! - [`num`]: number types of models and integrators: scalars and SIMD lanes
-//! - [`ode`]: Dormand-Prince 5(4), for one run or for many runs in lanes
+//! - [`ode`]: Dormand-Prince 5(4) integrator, for one simulation or for several simulations in lanes
 //! - [`parameter`]: names, units, ranges and descriptions of the parameters of a design point
 //! - [`quadrature`], [`drive`], [`piezo`], [`linkage`], [`springs`], [`body`], [`aero`], [`modes`]: components that several models use
-//! - [`model`]: the published models, from the parameters to the constants, the equations of motion and the
-//!   signals
+//! - [`model`]: the published models: their parameters, constants, equations of motion and signals
 //! - [`measure`]: computation of measures from a motion, for any model
-//! - [`simulate`]: computation of rows from design points; chirps, impulses and imposed motions
+//! - [`simulate`]: computation of the rows of design points, and of chirps, impulses and imposed motions
 //! - [`vehicle`]: sums of the forces and torques of several wings
 
 pub mod aero;

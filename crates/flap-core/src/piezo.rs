@@ -60,13 +60,14 @@ crate::parameters! {
     pub struct ElectricalParameters {
         /// Dielectric loss factor tan delta of the actuator. The loss adds the current G (V - mean of V) to
         /// the actuator's current, with the conductance G = w C tan delta. Here w is the angular drive
-        /// frequency, C the capacitance and V the voltage. Measured impedances of piezoelectric actuators
-        /// correspond to a tan delta between 0.13 and 0.16 at large voltages.
+        /// frequency, C is the capacitance, and V is the voltage. Measured impedances of piezoelectric
+        /// actuators correspond to a tan delta between 0.13 and 0.16 at large voltages.
         dielectric_loss: f64 = ("", "tan delta", Number(NonNegative), default: 0.0),
-        /// Fraction, from 0 to 1, of the returned power that the power supply recovers. The returned power
-        /// flows from the actuator back to the power supply. The fraction affects only the column
-        /// power_supply_mw. In the circuit of Ozaki and Ohta (2020), charge recovery reduced the supply power
-        /// to 58 %. For a capacitive load, this means a fraction of 0.42.
+        /// Power that the power supply recovers, divided by the power that the actuator returns: from 0 to 1.
+        /// The returned power flows from the actuator back to the power supply. The value of charge_recovery
+        /// affects only the column power_supply_mw. In the circuit of Ozaki and Ohta (2020), the supply power
+        /// with charge recovery was 58 % of the supply power without charge recovery. For a capacitive load,
+        /// 58 % corresponds to a recovered fraction of 0.42.
         charge_recovery: f64 = ("", "r", Number(Share), default: 0.0),
     }
 }

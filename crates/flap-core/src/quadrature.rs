@@ -16,8 +16,8 @@ pub struct Node {
     pub weight: f64,
 }
 
-/// Returns the midpoint rule. Its nodes are the midpoints of `n` equal parts of the interval, and all weights
-/// are equal. The midpoint rule is exact for linear functions.
+/// Returns the midpoint rule. The nodes of the rule are the midpoints of `n` equal parts of the interval, and
+/// all weights are equal. The midpoint rule is exact for linear functions.
 pub(crate) fn midpoints(n: usize) -> Rc<[Node]> {
     let weight = 1.0 / n as f64;
     (0..n).map(|i| Node { x: (i as f64 + 0.5) * weight, weight }).collect()

@@ -51,10 +51,10 @@ crate::per_lane! {
     /// Coefficients of the terms that flap adds to the force coefficients and the centre of pressure at the
     /// attack angle α.
     ///
-    /// With these terms, the drag coefficient is a Fourier series in 2α with three harmonics, and so is the
-    /// lift coefficient. The terms have the symmetry of a flat plate whose flow reverses. The drag is equal
-    /// at the attack angles α and π − α. The lift, and the shift of the centre of pressure from the
-    /// mid-chord, have opposite signs at the attack angles α and π − α.
+    /// With the additional terms, the drag coefficient and the lift coefficient are Fourier series in 2α with
+    /// three harmonics. If the flow along the chord of a flat plate reverses, the attack angle changes from α
+    /// to π − α. The drag is equal at the attack angles α and π − α. The lift, and the shift of the centre of
+    /// pressure from the mid-chord, have opposite signs at the attack angles α and π − α.
     pub struct Harmonics<R> {
         /// Coefficients d₀ and d₁ of the terms that are added to the drag coefficient.
         pub drag: [R; 2],

@@ -7,7 +7,7 @@ use crate::num::Real;
 crate::per_lane! {
     /// A strip of a wing in oblique flow.
     pub struct ObliqueStrip<R> {
-        /// Factor ½ρcΔr of the forces on the strip, which is called the weight of the strip (kg/m).
+        /// Weight of the strip: the factor ½ρcΔr of the forces on the strip (kg/m).
         pub weight: R,
         /// Distance r from the stroke axis to the point at which the velocity of the strip is computed (m).
         pub radius: R,
@@ -80,7 +80,7 @@ impl<R: Real> Flow<R> {
 
     /// Returns the forces on the strip along the normal and along the chord, divided by ½ρcΔr (m²/s²). The
     /// lift coefficient is C_L = b_L sin 2ψ, and the drag coefficient is C_D = b₁ + b₂ cos 2ψ. Here tan ψ is
-    /// u_C/u_N. `harmonics` adds terms to C_D and b_L.
+    /// u_C/u_N. The argument `harmonics` contains terms that the function adds to C_D and b_L.
     ///
     /// ```text
     /// C_D = b₁ + b₂ (u_N² − u_C²)/U²     F_N = U u_N (C_D + 2 b_L u_C²/U²)     F_C = U u_C (2 b_L u_N²/U² − C_D)
@@ -104,9 +104,9 @@ impl<R: Real> Flow<R> {
 /// acts along the chord towards the leading edge.
 #[derive(Clone, Copy, Debug)]
 pub struct ObliqueForces<R> {
-    /// Sum of the normal forces F_N of all strips (N).
+    /// Sum of the normal force F_N, over all strips (N).
     pub normal: R,
-    /// Sum of the forces F_C along the chord of all strips (N).
+    /// Sum of the force F_C along the chord, over all strips (N).
     pub chordwise: R,
     /// Sum of the normal force F_N times its lever arm about the stroke axis, over all strips (N·m).
     pub normal_moment: R,
@@ -131,8 +131,8 @@ impl<R: Real> ObliqueForces<R> {
         }
     }
 
-    /// Adds the forces on one strip to the sums. The argument `law` of [`oblique_forces`] returns these
-    /// forces.
+    /// Adds the forces on one strip to the sums. The function `law`, an argument of [`oblique_forces`],
+    /// computes the forces on one strip.
     #[inline(always)]
     pub(crate) fn add(&mut self, strip: &ObliqueStrip<R>, ([normal, chordwise], pressure): ([R; 2], R)) {
         let ObliqueStrip { weight, lever, chord, .. } = *strip;

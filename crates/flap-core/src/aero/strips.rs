@@ -29,8 +29,8 @@ pub(crate) fn cut(rule: &[Node], offset: f64, length: f64, chord: impl Fn(f64) -
     rule.iter().map(cut).collect()
 }
 
-/// Checks that no chord is negative. The error message contains the names in `parameters`, which are the
-/// names of the parameters that describe the chord.
+/// Checks that no chord is negative. `parameters` contains the names of the parameters that describe the
+/// chord. The error message contains the first and the last of these names.
 pub(crate) fn check_chords(cuts: &[Cut], parameters: &[&str]) -> Result<(), Invalid> {
     let Some(cut) = cuts.iter().find(|cut| cut.chord < 0.0) else { return Ok(()) };
     let (first, last) = (parameters[0], parameters[parameters.len() - 1]);
@@ -53,8 +53,9 @@ pub(crate) fn sum(cuts: &[Cut], f: impl Fn(f64, f64) -> f64) -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strips<R, const MAX: usize> {
     count: usize,
-    /// Four numbers for each strip: √a r, √a κc, radius r (m) and chord c (m), with a = ½ρcΔr. √a r times the
-    /// stroke rate, plus √a κc times the sweep rate, is √a times the velocity of the strip.
+    /// Four numbers for each strip: √a r, √a κc, radius r (m) and chord c (m). Here a is ½ρcΔr, and κ is the
+    /// argument `lever` of [`Strips::new`]. The velocity of the strip times √a is the sum of √a r times the
+    /// stroke rate and √a κc times the sweep rate.
     strips: [[R; 4]; MAX],
 }
 
@@ -109,7 +110,8 @@ impl<R: Real, const MAX: usize> Strips<R, MAX> {
     /// u = r · stroke rate + κ c · sweep rate
     /// ```
     ///
-    /// Because each term contains u|u|, the sums are correct even if the flow past some strips is reversed.
+    /// Each term contains u|u|, which changes its sign with u. The sums are therefore correct even if the
+    /// flow past some strips is reversed.
     #[inline(always)]
     pub fn sums(&self, stroke_rate: R, sweep_rate: R) -> StripSums<R> {
         let zero = stroke_rate.lit(0.0);

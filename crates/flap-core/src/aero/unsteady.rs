@@ -1,8 +1,8 @@
 //! Forces along the wing's normal from added mass, rotational circulation and rotational drag.
 //!
 //! The normal of the wing is cos ψ e_t − sin ψ e_z, with the axes e_t and e_z of [`crate::body::Shoulder`].
-//! The force on a section of the wing contains only powers of the chord and of the radius. Integrals of these
-//! powers over the wing therefore replace sums over strips.
+//! The force on a section of the wing is a sum of terms that contain powers of the chord and of the radius.
+//! Integrals of such powers over the wing therefore replace sums over strips.
 
 use core::f64::consts::{FRAC_PI_4, PI};
 
@@ -103,9 +103,9 @@ crate::per_lane! {
     /// edge.
     ///
     /// The force of the circulation, ρ u_C κ c² ω Δr, acts at a quarter of the chord. As in potential flow,
-    /// this formula contains the component u_C of the section's velocity along the chord. The formula of Sane
-    /// and Dickinson contains the speed of the section instead of u_C. At small attack angles, the speed and
-    /// u_C are almost equal.
+    /// the force is proportional to u_C, the component of the section's velocity along the chord. The formula
+    /// of Sane and Dickinson contains the speed of the section instead of u_C. At small attack angles, the
+    /// speed and u_C are almost equal.
     pub struct Circulation<R> {
         /// Factors of the force: κρ ∫ c² r^m dr for m = 0, 1 and 2 (kg/m, kg, kg·m).
         pub force: [R; 3],
@@ -153,8 +153,8 @@ impl<R: Real> Circulation<R> {
 }
 
 crate::per_lane! {
-    /// Normal force of the rotational drag on a wing, and its moment about the axis along the chord. The
-    /// moment about the axis along the span is not included.
+    /// Normal force of the rotational drag on a wing, and the moment of this force about the axis along the
+    /// chord. The moment about the axis along the span is not included.
     pub struct RotationalForce<R> {
         /// Factor of the force: ½Cρ I ∫ c³ dr (kg·m), where C is the drag coefficient. The number I is the
         /// integral of z|z| over a chord of length 1, where z is the distance behind the pitch axis.

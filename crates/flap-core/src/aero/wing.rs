@@ -16,7 +16,8 @@ pub struct Station {
     pub trailing: f64,
 }
 
-/// The outline of a wing. Between two stations, the edges are straight lines.
+/// The outline of a wing. The edges are straight lines between adjacent stations, which are positions along
+/// the span.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Outline {
     stations: Vec<Station>,
@@ -29,8 +30,8 @@ pub struct Material {
     pub membrane: f64,
     /// Mass of the spar per length (kg/m).
     pub spar: f64,
-    /// Mass of the whole wing (kg), if the wing was weighed. The computed masses of membrane and spar are
-    /// then scaled so that their sum is the weighed mass.
+    /// Mass of the whole wing (kg), if the wing was weighed. flap then scales the computed masses of membrane
+    /// and spar so that their sum is the weighed mass.
     pub weighed: Option<f64>,
 }
 
@@ -78,8 +79,8 @@ impl Masses {
 }
 
 impl Outline {
-    /// Returns the outline through `stations`. The stations must be in the order of increasing distance from
-    /// the root.
+    /// Returns the outline whose edges pass through the points in `stations`. The stations must be in the
+    /// order of increasing distance from the root.
     ///
     /// # Errors
     /// An error in these cases:
@@ -124,8 +125,8 @@ impl Outline {
         self.stations[self.stations.len() - 1].span
     }
 
-    /// Returns the positions of the leading and the trailing edge (m), as in [`Station`]. `span` is the distance from
-    /// the root (m).
+    /// Returns two distances from the hinge's axis (m): the leading edge ahead of the axis, and the trailing
+    /// edge behind the axis. `span` is the distance from the root (m).
     fn edges(&self, span: f64) -> [f64; 2] {
         let after = self.stations.partition_point(|station| station.span <= span);
         let after = after.clamp(1, self.stations.len() - 1);

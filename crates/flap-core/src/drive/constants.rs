@@ -20,8 +20,8 @@ pub struct Wave<R> {
 }
 
 impl<R: Real> Wave<R> {
-    /// Returns a wave with the given value and rate. The second derivative is set to zero, because quantities
-    /// such as a voltage do not need it.
+    /// Returns a wave with the given value and rate. The second derivative is set to zero, because the
+    /// equations do not contain the second derivative of a voltage.
     #[inline(always)]
     pub fn with_rate(value: R, rate: R) -> Wave<R> {
         Wave { value, rate, bend: value.lit(0.0) }
@@ -170,8 +170,9 @@ impl<R: Real> DriveConstants<R> {
         }
     }
 
-    /// Returns the square wave at time `t`. The edges of the square wave are at the beginning, the middle and
-    /// the end of the period. Each edge has the shape of a sine from −90° to 90°.
+    /// Returns the square wave at time `t`. The square wave rises at the beginning and at the end of the
+    /// period, and falls in the middle of the period. Each rise and each fall has the shape of a sine from
+    /// −90° to 90°.
     #[inline(always)]
     pub(super) fn square(&self, t: R) -> Wave<R> {
         let zero = t.lit(0.0);
@@ -196,8 +197,8 @@ impl<R: Real> DriveConstants<R> {
         }
     }
 
-    /// Returns the next time after `t` at which a derivative of the square wave jumps, because an edge begins or ends.
-    /// The result is infinite if the derivatives do not jump after `t`.
+    /// Returns the next time after `t` at which a derivative of the square wave jumps, because a rise or a
+    /// fall begins or ends. The result is infinite if the derivatives do not jump after `t`.
     #[inline(always)]
     pub(super) fn next_edge(&self, t: R) -> R {
         let period = self.half_period * 2.0;

@@ -1,7 +1,7 @@
 //! The drive of a wing: a voltage that follows a waveform, or a prescribed stroke.
 //!
-//! A model has one [`Drive`] for all lanes of an ensemble, and [`DriveConstants`] for each point. The parameter table
-//! of a model contains [`WaveformParameters`], and [`StrokeParameters`] if the stroke can be prescribed.
+//! All lanes have one common [`Drive`], and each point has its own [`DriveConstants`]. The parameter table of
+//! a model contains [`WaveformParameters`], and [`StrokeParameters`] if the stroke can be prescribed.
 
 mod constants;
 mod parameters;

@@ -10,7 +10,8 @@ crate::choice! {
         Sine = "sine",
         /// A sine with a second and a third harmonic: sin θ + h₂ sin(2θ + p₂) + h₃ sin(3θ + p₃).
         Harmonics = "harmonics",
-        /// A square wave between −1 and 1. Each edge has the shape of a sine from −90° to 90°.
+        /// A square wave between −1 and 1. Each rise and each fall of the square wave has the shape of a sine
+        /// from −90° to 90°.
         Square = "square",
     }
 }
@@ -36,13 +37,15 @@ crate::parameters! {
         /// drive_shape = "harmonics".
         drive_second_harmonic: f64 = ("", "", Number(Any)),
         /// Phase p_2 of the second harmonic in the drive sin(w t) + h_2 sin(2 w t + p_2), for drive_shape =
-        /// "harmonics". Here w is the angular drive frequency, t the time, and h_2 is drive_second_harmonic.
+        /// "harmonics". Here w is the angular drive frequency, t is the time, and h_2 is
+        /// drive_second_harmonic.
         drive_second_phase: f64 = ("rad", "", Number(Any)),
         /// Amplitude of the third harmonic of the drive, relative to the amplitude of the first harmonic, for
         /// drive_shape = "harmonics".
         drive_third_harmonic: f64 = ("", "", Number(Any)),
-        /// Phase p_3 of the third harmonic in the drive sin(w t) + h_3 sin(3 w t + p_3), for drive_shape = "harmonics".
-        /// Here w is the angular drive frequency, t the time, and h_3 is drive_third_harmonic.
+        /// Phase p_3 of the third harmonic in the drive sin(w t) + h_3 sin(3 w t + p_3), for drive_shape =
+        /// "harmonics". Here w is the angular drive frequency, t is the time, and h_3 is
+        /// drive_third_harmonic.
         drive_third_phase: f64 = ("rad", "", Number(Any)),
         /// Rise time of the square wave as a fraction of the drive period, for drive_shape = "square". The fall time
         /// equals the rise time. The value of drive_rise is at most 0.5.
@@ -54,8 +57,8 @@ impl WaveformParameters {
     /// A sine.
     pub const SINE: WaveformParameters = WaveformParameters::new(Shape::Sine);
 
-    /// Returns a waveform without harmonics. If `drive_shape` is a square wave, each edge takes a twentieth of the
-    /// period.
+    /// Returns a waveform without harmonics. If `drive_shape` is a square wave, each rise and each fall takes
+    /// a twentieth of the period.
     pub const fn new(drive_shape: Shape) -> WaveformParameters {
         WaveformParameters {
             drive_shape,

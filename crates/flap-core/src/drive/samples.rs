@@ -11,11 +11,11 @@ use crate::parameter::Invalid;
 /// Smallest number of samples that a record may have.
 const FEWEST: usize = 4;
 
-/// Smallest magnitude of a first harmonic, as a fraction of the record's range. A record with a smaller first
-/// harmonic counts as a record without a first harmonic.
+/// Limit for the magnitude of a first harmonic, as a fraction of the record's range. If the magnitude of the
+/// first harmonic is below the limit, the record counts as a record without a first harmonic.
 const NO_HARMONIC: f64 = 1e-9;
 
-/// Continuation of a record after its last sample.
+/// Continuation of a record after its last sample: the record repeats or ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Repeat {
     /// The record repeats: its last sample is also the first sample of the next period.
@@ -60,7 +60,7 @@ impl Samples {
     /// Returns the record of the samples `values` at the `times` (s).
     ///
     /// The last value of a periodic record may differ from the first value by at most a thousandth of the
-    /// record's range. flap then replaces the last value by the first value.
+    /// record's range. flap replaces the last value of a periodic record by the first value.
     ///
     /// # Errors
     /// An error in these cases:
@@ -68,7 +68,8 @@ impl Samples {
     /// - There are fewer than four samples.
     /// - A time or value is not finite.
     /// - Times do not increase.
-    /// - The first and the last value of a periodic record differ by more than a thousandth of its range.
+    /// - The first and the last value of a periodic record differ by more than a thousandth of the record's
+    ///   range.
     pub fn new(times: &[f64], values: &[f64], repeat: Repeat) -> Result<Samples, Invalid> {
         let count = times.len().min(values.len());
         if count < FEWEST {

@@ -1,4 +1,4 @@
-//! The part of the drive that all lanes of an ensemble share: the waveform and the prescribed quantity.
+//! The part of the drive that is equal in all lanes: the waveform and the prescribed quantity.
 
 use core::f64::consts::FRAC_PI_2;
 
@@ -11,7 +11,7 @@ use crate::parameter::Invalid;
 /// Shape of the drive over time.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Waveform {
-    /// A periodic shape, whose numbers are parameters of each point.
+    /// A periodic shape. Each point has its own values of the parameters of the shape, such as the rise time.
     Shape(Shape),
     /// Samples of one period.
     Samples(Samples),
@@ -19,7 +19,7 @@ pub enum Waveform {
     Chirp,
 }
 
-/// The part of a drive that all points in the lanes of an ensemble share.
+/// The part of a drive that is equal for all points that flap integrates at the same time in lanes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
     /// Shape of the drive over time.
@@ -58,7 +58,8 @@ impl Drive {
         self.stroke == StrokeMode::Prescribed
     }
 
-    /// Checks that the edges of a square wave fit into the period, and that a prescribed stroke is not a square wave.
+    /// Checks that the rise and the fall of a square wave fit into the period, and that a prescribed stroke
+    /// is not a square wave.
     ///
     /// # Errors
     /// An error if a square wave has a rise time of more than 0.5 of the period. A square wave is also an
@@ -79,7 +80,8 @@ impl Drive {
         Ok(())
     }
 
-    /// Returns the waveform of unit amplitude at time `t` (s), from 0 to the end of the period.
+    /// Returns the value of the waveform with unit amplitude at the time `t` (s) after the beginning of a
+    /// period.
     #[inline(always)]
     pub(crate) fn wave<R: Real>(&self, c: &DriveConstants<R>, t: R) -> Wave<R> {
         match &self.waveform {
@@ -104,8 +106,8 @@ impl Drive {
     /// Returns the next time after `t` (s) at which a derivative of the waveform jumps. The result is
     /// infinite if no derivative jumps.
     ///
-    /// For a waveform from samples, the result is infinite, because the second derivative of the spline is
-    /// continuous.
+    /// For a waveform from samples, the result is infinite, because the spline and its first two derivatives
+    /// do not jump.
     #[inline(always)]
     pub fn next_break<R: Real>(&self, c: &DriveConstants<R>, t: R) -> R {
         match &self.waveform {

@@ -1,11 +1,11 @@
 //! Measures of signals over one drive period: means, extrema, first harmonics.
 //!
-//! flap computes means and harmonics as integrals over time, from the values at the stages of each step.
-//! These integrals have the same order as the integration method, and their errors do not affect the step
+//! flap computes means and harmonics as integrals over time, from the values at the stages of each step. The
+//! integrals have the order of the integration method, and the errors of the integrals do not affect the step
 //! size. Extrema are computed from a polynomial through five values of the signal in each step. If a signal
-//! changes its sign within a step, flap computes the mean of its positive part from two parabolas. Each
-//! parabola passes through three of the five values. For each signal, flap computes only the quantities that
-//! the measures of this signal need.
+//! changes its sign within a step, flap computes the mean of the signal's positive part from two parabolas.
+//! Each of the two parabolas passes through three values of the signal in the step. For each signal, flap
+//! computes only the quantities that the measures of this signal need.
 
 use super::step_polynomial::{Extremum, StepPolynomial};
 use crate::model::{Each, Instant, Model, SecondHalf, SignalCycle, SignalSet, SignalsOf, Statistics, Totals};
@@ -15,8 +15,8 @@ use crate::ode::step::Attempt;
 use crate::ode::tableau::{B, C};
 use crate::ode::{input, slope};
 
-/// Copies the sums that `statistics` selects from `sum` to `total`, in the lanes in which the step was
-/// `accepted`.
+/// Copies values from `sum` to `total`, in the lanes in which the step was `accepted`. The argument
+/// `statistics` selects the values that are copied.
 #[inline(always)]
 fn replace<R: Lanes>(total: &mut Totals<R>, statistics: Statistics, accepted: R::Mask, sum: &Totals<R>) {
     total.integral = R::select(accepted, sum.integral, total.integral);
@@ -36,15 +36,18 @@ fn replace<R: Lanes>(total: &mut Totals<R>, statistics: Statistics, accepted: R:
     }
 }
 
-/// Sums of each signal of the set `S` over time, and the time integrals of the load at the wing's shoulder.
+/// Time integrals and extrema of each signal of the set `S`, and the time integrals of the load at the wing's
+/// shoulder.
 ///
 /// [`Load::at_shoulder`](crate::model::Load::at_shoulder) describes the components of the load.
 pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
 
-/// Returns the sums over a whole period, given the sums over the first half of the period.
+/// Returns the time integrals and extrema over a whole period, computed from the time integrals and extrema
+/// over the first half.
 ///
-/// The function `second_half` computes the sums of the signals over the second half. In the second half, the
-/// stroke, the force and the moment are mirror images of their values in the first half.
+/// The function `second_half` computes the time integrals and extrema of the signals over the second half of
+/// the period. In the second half, the stroke, the force and the moment are mirror images of their values in
+/// the first half.
 pub(crate) fn over_both_halves<S: SignalSet>(
     (Each(first), load): &Sums<S, f64>,
     second_half: SecondHalf<S>,
@@ -54,15 +57,15 @@ pub(crate) fn over_both_halves<S: SignalSet>(
     (Each(totals), [0.0, along_span, lift, about_x, 0.0, 0.0])
 }
 
-/// Sums of the signals of the model `M` over time, in one lane.
+/// Time integrals and extrema of the signals of the model `M`, in one lane.
 pub(crate) type SumsOf<M, const N: usize> = Sums<<M as Model<N>>::Signals, f64>;
 
-/// Observer that sums up the signals of a model during an integration.
+/// Observer that computes time integrals and extrema of the signals of a model during an integration.
 #[derive(Clone, Copy, Debug)]
 pub struct SignalObserver<'a, M> {
     model: &'a M,
-    /// True if the observer computes extrema and positive parts, which is most of the work. If `extrema` is
-    /// false, the extrema and the positive parts are undefined.
+    /// True if the observer computes extrema and positive parts, which takes most of the observer's computing
+    /// time. If `extrema` is false, the extrema and the positive parts are undefined.
     extrema: bool,
     /// True if the observer also integrates the load at the shoulder. If `loads` is false, the integral of
     /// the load is zero.
@@ -70,7 +73,8 @@ pub struct SignalObserver<'a, M> {
 }
 
 impl<'a, M> SignalObserver<'a, M> {
-    /// Returns an observer that computes all sums of the signals, but not the integral of the load.
+    /// Returns an observer that computes all time integrals and extrema of the signals, but not the integral
+    /// of the load.
     pub fn all(model: &'a M) -> Self {
         SignalObserver { model, extrema: true, loads: false }
     }
@@ -86,8 +90,8 @@ impl<'a, M> SignalObserver<'a, M> {
         SignalObserver { loads, ..self }
     }
 
-    /// Adds a step to the sums, as [`Observer::add`] does. If the observer computes extrema, the result
-    /// contains the extrema of each signal within the step.
+    /// Adds the contribution of a step to the sums, as [`Observer::add`] does. If the observer computes
+    /// extrema, the result contains the extrema of each signal within the step.
     #[inline(always)]
     pub(super) fn add_step<R: Lanes, const N: usize>(
         &self,
@@ -339,8 +343,8 @@ fn signals<M: Model<N>, R: Lanes, const N: usize>(
     )
 }
 
-/// Returns means, extrema and harmonics of the signals `S` over a cycle of `period` seconds, given the sums
-/// of the signals over this cycle.
+/// Returns means, extrema and harmonics of the signals `S` over a cycle of `period` seconds, given the time
+/// integrals and extrema of the signals over this cycle.
 pub fn finish<S: SignalSet>((Each(totals), _): &Sums<S, f64>, period: f64) -> S::Of<SignalCycle> {
     S::map(totals, |statistics, total: Totals<f64>| {
         // A signal that is not a number has no extrema and no positive part: `max` alone would skip NaN.

@@ -6,12 +6,12 @@ use nalgebra::linalg::Schur;
 /// Largest number of iterations for the eigenvalues of a matrix. Usually about ten iterations are enough.
 const LONGEST: usize = 200;
 
-/// Largest number of squarings in the stability test. Usually about three squarings are enough. After the last
-/// squaring, the test computes the eigenvalues.
+/// Largest number of squarings in the stability test. Usually about three squarings are enough. If the last
+/// squaring does not prove that the matrix is stable, the test computes the eigenvalues.
 const STABILITY_SQUARINGS: u32 = 8;
 
-/// Number of times that a matrix must be squared to compute its spectral radius. The error is then of the
-/// order of rounding errors.
+/// Number of times that a matrix is squared to compute its spectral radius. After this number of squarings,
+/// the error of the spectral radius is of the order of rounding errors.
 const SQUARINGS: u32 = 54;
 
 /// A matrix of N rows and columns, in row-major order.
@@ -20,8 +20,8 @@ pub type Matrix<const N: usize> = [[f64; N]; N];
 /// Returns the monodromy matrix, in units of the typical sizes `scale` of the states.
 ///
 /// `responses[j]` is the change of the state after a period, if component j of the initial state changes by
-/// its typical size `scale[j]`. This change, in units of the typical sizes, is column j of the monodromy
-/// matrix.
+/// its typical size `scale[j]`. Column j of the monodromy matrix is `responses[j]` in units of the typical
+/// sizes.
 pub(crate) fn monodromy<const N: usize>(responses: &[[f64; N]], scale: &[f64; N]) -> Matrix<N> {
     core::array::from_fn(|i| core::array::from_fn(|j| responses[j][i] / scale[i]))
 }

@@ -1,8 +1,10 @@
-//! Extrema of the signals in each quarter of a drive period, together with the sums over the whole period.
+//! Extrema of the signals in each quarter of a drive period, and time integrals of the signals over the whole
+//! period.
 //!
 //! Signals of a symmetric motion reach equal extrema in both half strokes. A change that breaks the symmetry
 //! raises one of the two extrema more than the other. As a function of this change, the larger extremum
-//! therefore has a kink. The two extrema lie in opposite quarters of the drive period.
+//! therefore has a kink. The two equal extrema of a symmetric motion lie in opposite quarters of the drive
+//! period.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -15,18 +17,19 @@ use crate::ode::step::Attempt;
 
 /// Phase at which the first quarter of the drive period begins (rad).
 ///
-/// Extrema of a signal are unlikely at this phase. Two extrema with a distance of half a period therefore lie
-/// in opposite quarters.
+/// Extrema of a signal are unlikely at the boundaries of the quarters. Two extrema that are half a period
+/// apart therefore lie in opposite quarters, even if numerical errors shift the extrema.
 const BEGIN: f64 = -0.37;
 
 /// Smallest and largest value of a signal in a quarter of the drive period.
 type Range<R> = [R; 2];
 
-/// Sums of the signals `S` over time, and the extrema of each signal in the four quarters of the drive
-/// period.
+/// Time integrals and extrema of the signals `S` over a period, and the extrema of each signal in the four
+/// quarters of the period.
 pub type InQuarters<S, R> = (Sums<S, R>, Each<S, [Range<R>; 4]>);
 
-/// Observer that sums up the signals of a model and computes the extrema of the signals in each quarter.
+/// Observer that computes the time integrals of the signals of a model, and the extrema of the signals in
+/// each quarter.
 #[derive(Clone, Copy, Debug)]
 pub struct Quarters<'a, M>(pub SignalObserver<'a, M>);
 
@@ -110,12 +113,12 @@ impl Shifts {
     }
 }
 
-/// Returns the sums of `runs`, after making nearly equal extrema exactly equal. The result is `None` if no
-/// extrema are nearly equal.
+/// Returns the time integrals and extrema of `runs`, after making nearly equal extrema exactly equal. The
+/// result is `None` if no extrema are nearly equal.
 ///
-/// The first run is a motion without changes, and all later runs are the same motion with small changes. In
-/// the first run, extrema whose relative difference is less than `error` are made equal. The same corrections
-/// are then added to the extrema of all later runs.
+/// `runs[0]` is the motion at the point, and all later entries of `runs` are motions with slightly changed
+/// parameters. In `runs[0]`, extrema whose relative difference is less than `error` are made equal. The
+/// corrections for `runs[0]` are also added to the extrema of all later entries.
 pub(crate) fn with_equal_extrema<S: SignalSet>(
     runs: &[InQuarters<S, f64>],
     error: f64,

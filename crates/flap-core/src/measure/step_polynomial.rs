@@ -84,23 +84,23 @@ pub(super) struct Extremum<R> {
 }
 
 impl<R: Real> Extremum<R> {
-    /// Returns the same extremum, with its position as a fraction of the step. The polynomial covers the
+    /// Returns the extremum with its position converted to a fraction of the step. The polynomial covers the
     /// fraction `share` of the step, and the centre of the polynomial is at the fraction `middle`.
     #[inline(always)]
     pub(super) fn within(self, middle: f64, share: f64) -> Extremum<R> {
         Extremum { place: self.place * (0.25 * share) + middle, ..self }
     }
 
-    /// Returns the extremum with the smaller value. The result is `other` if the two values are equal or if
-    /// one value is NaN.
+    /// Returns `self` or `other`: the extremum with the smaller value. The result is `other` if the two
+    /// values are equal or if one value is NaN.
     #[inline(always)]
     pub(super) fn or_smaller(self, other: Extremum<R>) -> Extremum<R> {
         let place = R::select(self.value.lt(other.value), self.place, other.place);
         Extremum { value: self.value.min(other.value), place }
     }
 
-    /// Returns the extremum with the larger value. The result is `other` if the two values are equal or if
-    /// one value is NaN.
+    /// Returns `self` or `other`: the extremum with the larger value. The result is `other` if the two values
+    /// are equal or if one value is NaN.
     #[inline(always)]
     pub(super) fn or_larger(self, other: Extremum<R>) -> Extremum<R> {
         let place = R::select(other.value.lt(self.value), self.place, other.place);

@@ -11,7 +11,8 @@ const LONGEST: usize = LONGEST_PERIOD as usize;
 /// units of the states' typical sizes.
 ///
 /// A motion that slowly approaches an orbit of one period also returns close to its own earlier states. The
-/// smallest distance ensures that flap does not report such a motion as a subharmonic orbit.
+/// smallest distance ensures that flap does not report a subharmonic orbit for a motion that approaches an
+/// orbit of one period.
 const SEPARATE: f64 = 1e-2;
 
 /// The states at the ends of the last drive periods.
@@ -40,8 +41,9 @@ impl<const N: usize> Strobe<N> {
 
     /// Adds the state at the end of a period. Returns the length of the orbit in periods, if the motion has settled.
     ///
-    /// An orbit of p periods has settled if p + 1 consecutive states at period ends equal the states p
-    /// periods earlier. For p > 1, consecutive states at period ends must also have a minimum distance.
+    /// A motion has settled to an orbit of p periods if p + 1 consecutive states at period ends equal the
+    /// states p periods earlier. For p > 1, the distance between consecutive states at period ends must also
+    /// exceed a minimum.
     pub fn period_end(&mut self, y: &[f64; N]) -> Option<u32> {
         self.states.rotate_right(1);
         self.states[0] = *y;

@@ -72,11 +72,11 @@ pub struct Derived<M, C, S: SignalSet> {
     /// constants of the point, and the signals over a drive period of the orbit.
     ///
     /// The signals contain the mean of each signal, and the quantities that the
-    /// [measures](super::Signal::measures) of the signal require. Quantities of a signal that no measure
-    /// requires are NaN.
+    /// [measures](super::Signal::measures) of the signal require. If no measure requires a quantity of a
+    /// signal, the quantity is NaN.
     pub value: fn(&M, &C, &S::Of<SignalCycle>) -> f64,
-    /// Columns in the rows of a vehicle that replace this column of a single wing: one sum, one column per
-    /// wing, or no column.
+    /// The columns that replace this column in the rows of a vehicle: one sum, one column per wing, or no
+    /// column.
     pub over_wings: OverWings,
 }
 
@@ -117,13 +117,13 @@ pub struct Symmetry<S: SignalSet, const N: usize> {
     ///
     /// Use [`Totals::negated`] for signals with opposite signs in the two halves of a period, such as angles.
     /// Use [`Totals::repeated`] for signals that are equal in the two halves, such as lift and power. The
-    /// value is `None` if the first half does not determine the totals of the second half. If the value is
-    /// `None`, flap measures whole periods.
+    /// value is `None` if the first half does not determine the integrals and extrema over the second half.
+    /// If the value is `None`, flap integrates whole periods to compute the measures.
     pub second_half: Option<SecondHalf<S>>,
 }
 
-/// Function that takes the totals of the signals `S` over the first half of a period, and returns the totals
-/// over the second half.
+/// Function that receives the [`Totals`] of the signals `S` over the first half of a period, and returns the
+/// [`Totals`] over the second half.
 pub type SecondHalf<S> = fn(&SignalsOf<S, Totals<f64>>) -> SignalsOf<S, Totals<f64>>;
 
 /// States, derivatives and inputs of a model at one instant of a motion. The model has N states and inputs of
@@ -167,9 +167,9 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// Returns a copy of this variant whose equations also contain the additional terms of the variant
     /// `other`.
     ///
-    /// A term is additional if the equations with the term at zero equal the equations without the term. To
-    /// compute the derivative with respect to the parameter of a term that is zero at the point, flap uses a
-    /// variant with this term.
+    /// A term is additional if the equations with the term at zero equal the equations without the term. If
+    /// the parameter of an additional term is zero at a point, the variant of the point omits the term. To
+    /// compute the derivative with respect to this parameter, flap uses a variant that contains the term.
     fn with_terms_of(&self, other: &Self) -> Self {
         let _ = other;
         self.clone()

@@ -11,7 +11,7 @@ pub type Imposed<I, const N: usize> = ([f64; N], [f64; N], I);
 
 /// A model for which flap can compute experiments in addition to the rows of a sweep.
 pub trait ExperimentModel<const N: usize>: Model<N> {
-    /// Signals whose frequencies flap reports for a free motion. The first signal in the list is the signal
+    /// Signals whose frequencies flap reports for a free motion. The first signal in the list is the stroke,
     /// on which the impulse acts.
     const FREE_SIGNALS: &'static [Signal];
 

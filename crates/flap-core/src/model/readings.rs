@@ -2,8 +2,8 @@
 
 use super::signal::{DEGREES, GRAVITY};
 
-/// Returns the angle (deg), in the range (−180, 180], by which the phase `of` (rad) lags the phase `behind`
-/// (rad).
+/// Returns the phase lag (deg), in the range (−180, 180], of the phase `of` (rad) relative to the phase
+/// `behind` (rad).
 pub fn lag_degrees(of: f64, behind: f64) -> f64 {
     let degrees = (behind - of) * DEGREES;
     if degrees > 180.0 {

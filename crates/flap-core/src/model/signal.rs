@@ -23,7 +23,7 @@ pub struct Signal {
     pub of_wings: &'static [Measure],
 }
 
-/// Columns in the rows of a vehicle that replace one column of a single wing.
+/// The columns that replace a column of a single wing in the rows of a vehicle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OverWings {
     /// One column with the sum over all wings.
@@ -35,7 +35,7 @@ pub enum OverWings {
 }
 
 impl Signal {
-    /// Returns a signal with these `measures` over a drive period.
+    /// Returns a signal with the given `measures` over a drive period.
     pub const fn new(
         name: &'static str,
         unit: Unit,

@@ -16,15 +16,15 @@ pub trait SignalSet: Copy + 'static {
     fn all<T: Copy>(value: T) -> Self::Of<T>;
 
     /// Calls `f` for each signal, and returns a set of the results. The arguments of `f` are the quantities
-    /// that the signal requires, and the values of the signal in `one` and in `other`.
+    /// that flap computes for the signal, and the values of the signal in `one` and in `other`.
     fn zip<A: Copy, B: Copy, C: Copy>(
         one: &Self::Of<A>,
         other: &Self::Of<B>,
         f: impl FnMut(Statistics, A, B) -> C,
     ) -> Self::Of<C>;
 
-    /// Calls `f` for each signal. The arguments of `f` are the quantities that the signal requires, a mutable
-    /// reference to its value in `of`, and its values in `from`.
+    /// Calls `f` for each signal. The arguments of `f` are the quantities that flap computes for the signal,
+    /// a mutable reference to its value in `of`, and its values in `from`.
     fn update<A: Copy, B: Copy, const L: usize>(
         of: &mut Self::Of<A>,
         from: [&Self::Of<B>; L],
@@ -35,7 +35,7 @@ pub trait SignalSet: Copy + 'static {
     fn each<T: Copy>(of: &Self::Of<T>) -> impl Iterator<Item = (&'static Signal, T)>;
 
     /// Calls `f` for each signal, and returns a set of the results. The arguments of `f` are the quantities
-    /// that the signal requires, and the value of the signal in `of`.
+    /// that flap computes for the signal, and the value of the signal in `of`.
     #[inline(always)]
     fn map<A: Copy, B: Copy>(of: &Self::Of<A>, mut f: impl FnMut(Statistics, A) -> B) -> Self::Of<B> {
         Self::zip(

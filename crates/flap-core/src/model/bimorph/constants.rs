@@ -55,7 +55,7 @@ crate::per_lane! {
         pub c_p: R,
         /// Conductance that represents the dielectric loss of one plate (S).
         pub conductance: R,
-        /// Fraction, from 0 to 1, of the power returned by the actuator that the power supply recovers.
+        /// Power that the power supply recovers, divided by the power that the actuator returns: from 0 to 1.
         pub charge_recovery: R,
 
         /// Contribution of the carbon-fibre layer to the stiffness at the actuator's tip (N/m), Eq. (3).
@@ -152,7 +152,7 @@ crate::per_lane! {
         pub vehicle_mass: R,
         /// Nonlinear terms of the springs of stroke and hinge.
         pub stiffening: Stiffening<R>,
-        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
+        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
         pub harmonics: Harmonics<R>,
         /// Rotational circulation of the wing's sections.
         pub circulation: Circulation<R>,
@@ -191,8 +191,8 @@ impl Constants<f64> {
     ///
     /// # Errors
     /// Returns an error if the width of the actuator is zero at one end, or the plates have no stiffness.
-    /// Returns an error if no wing has the given radii, or the mass matrix is not positive definite at some
-    /// pitch. Returns an error if a constant is not finite.
+    /// Returns an error if no shape of the wing has the given radii, or the mass matrix is not positive
+    /// definite at some pitch. Returns an error if a constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let actuator = Actuator::new(p)?;
         // Exponent of the modulus transition (4) at zero strain.

@@ -68,7 +68,7 @@ pub(super) struct Air<R> {
     pub(super) rotation_moment: R,
 }
 
-/// Returns the aerodynamic force and moment on the wing, without the part of the added mass.
+/// Returns the aerodynamic force and moment on the wing, without the contribution of the added mass.
 #[inline(always)]
 fn air<R: Real>(c: &Constants<R>, model: &Bimorph, body_moves: bool, motion: &Motion<R>, x_dot: R) -> Air<R> {
     let Motion { stroke: [phi, phi_dot], rate, pitch, turned, shoulder, .. } = motion;
@@ -108,7 +108,8 @@ fn air<R: Real>(c: &Constants<R>, model: &Bimorph, body_moves: bool, motion: &Mo
     Air { load, rotation_moment }
 }
 
-/// Returns the aerodynamic force and moment on the wing at one instant, including the part of the added mass.
+/// Returns the aerodynamic force and moment on the wing at one instant, including the contribution of the
+/// added mass.
 #[inline(always)]
 pub(super) fn air_at<R: Real>(
     c: &Constants<R>,
@@ -156,9 +157,9 @@ fn accelerations<R: Real>(motion: &Motion<R>) -> [R; 3] {
 /// Returns the time derivative of the state, from Eqs. (1) and (2). M_D and M_s are the aerodynamic moments
 /// about the stroke axis and the span axis.
 ///
-/// In the equations, N is the load of the added mass. The dots stand for the stop and the damping of the
-/// hinge, and the damping of the stroke is not shown. The rotation of the body adds the inertial moment −g φ̇
-/// about the hinge, see [`Shoulder::gyroscopic`].
+/// In the equations, N is the load of the added mass. The dots in the equations stand for the stop and the
+/// damping of the hinge. The equations do not show the damping of the stroke. The rotation of the body adds
+/// the inertial moment −g φ̇ about the hinge, see [`Shoulder::gyroscopic`].
 ///
 /// ```text
 /// m_e ẍ + (K_act(x) + K_t) x + T (M_D − N_c cos ψ + k₃ φ³) = F₁ − F₂

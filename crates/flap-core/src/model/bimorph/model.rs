@@ -103,8 +103,9 @@ const DERIVED: &[Column] = &[
         |_, c, _| Bimorph::modes(c)[1].frequency),
 ];
 
-/// Returns the time integrals and extrema of the signals over the second half of a symmetric period. In the
-/// second half, the plates exchange their roles, and stroke and pitch have opposite signs.
+/// Returns the time integrals and extrema of the signals over the second half of a symmetric period. The
+/// second half equals the first half with the two plates exchanged, and with opposite signs of stroke, pitch
+/// and drag.
 fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
     let same = Signals::map(first, |_, totals| totals.repeated());
     Signals {
@@ -507,8 +508,8 @@ impl ExperimentModel<4> for Bimorph {
         with_half(f64::midpoint(low, high))
     }
 
-    /// Returns the state after an impulse on the stroke, which causes the pitch rate ψ̇ = (I_xz + a₁₂) T
-    /// ẋ/(I_xx + a₂₂). The pitch rate follows from Eq. (2) with the added mass of the wing's sections.
+    /// Returns the state after an impulse on the stroke. The impulse also causes the pitch rate ψ̇ = (I_xz +
+    /// a₁₂) T ẋ/(I_xx + a₂₂). The pitch rate follows from Eq. (2) with the added mass of the wing's sections.
     fn struck(c: &Constants<f64>, stroke_rate: f64) -> [f64; 4] {
         let tip_rate = stroke_rate / c.ratio;
         [0.0, tip_rate, 0.0, (c.i_xz + c.added.a12) * stroke_rate / (c.i_xx + c.added.a22)]

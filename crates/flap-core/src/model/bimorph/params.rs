@@ -98,7 +98,7 @@ crate::parameters! {
         /// Chordwise centre of pressure at an attack angle of 90 deg, as a fraction of the mean wing width
         /// A_w/R, Eq. (11).
         pressure_max: f64 = ("", "p_max", Number(Any), is_fitted: true) 0.151,
-        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
+        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
         /// Factor that multiplies the rotational circulation of potential flow. With circulation_factor = 1,
         /// the circulation follows the theory of Kramer (1932) and Sane and Dickinson (2002). Jafferis et

@@ -181,8 +181,8 @@ pub(super) fn tilt<R: Real>(reading: CentreOfPressure, psi: R, x_dot: R) -> R {
     }
 }
 
-/// Returns C_D, the aerodynamic torque about the hinge divided by ẋ|ẋ| (kg), Eqs. (10) and (11). The centre
-/// of pressure depends on the angle ψ̃, which the function [`tilt`] computes.
+/// Returns the number C_D (kg): the aerodynamic torque about the hinge, divided by ẋ|ẋ|, Eqs. (10) and (11).
+/// The centre of pressure depends on the angle ψ̃, which the function [`tilt`] computes.
 ///
 /// ```text
 /// C_D = ½ρA_w r̂₂²T²R² W_cp2 ((b₁ + b₂ cos 2ψ) cos ψ + b_L sin 2ψ sin ψ)

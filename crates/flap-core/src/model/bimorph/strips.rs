@@ -1,5 +1,5 @@
-//! The chord of the wing in the bimorph model. From the chord, the module computes strips for body motion,
-//! and integrals for circulation and added mass.
+//! The chord of the wing in the bimorph model. From the chord, the module computes the strips that the
+//! equations need if the body moves, and integrals for circulation and added mass.
 
 use super::params::{CentreOfPressure, Params};
 use crate::aero::{AddedMass, Circulation, ObliqueStrip, RotationalForce};
@@ -12,7 +12,7 @@ use crate::quadrature::gauss_beta;
 const STRIPS: usize = 4;
 
 crate::per_lane! {
-    /// Motion of the body, and the strips of the wing that move with the body.
+    /// Motion of the body, and the strips of the wing.
     pub struct Moving<R> {
         /// Motion of the shoulder.
         pub motion: BodyMotion<R>,
@@ -31,8 +31,8 @@ impl Moving<f64> {
     /// describes a body at rest.
     ///
     /// # Errors
-    /// Returns an error if the body moves and `centre_of_pressure` is "literal", or if no wing has the given
-    /// radii.
+    /// Returns an error if the body moves and `centre_of_pressure` is "literal", or if no shape of the wing
+    /// has the given radii.
     pub(super) fn of(p: &Params, terms: BodyTerms) -> Result<Moving<f64>, Invalid> {
         if terms == BodyTerms::None {
             return Ok(Moving::REST);
@@ -64,7 +64,7 @@ struct Chord {
 
 impl Chord {
     /// # Errors
-    /// Returns an error if no wing has the radii `wing_radius_1` and `wing_radius_2`.
+    /// Returns an error if no shape of the wing has the radii `wing_radius_1` and `wing_radius_2`.
     fn of(p: &Params) -> Result<Chord, Invalid> {
         let second = p.wing_radius_2;
         let first = p.wing_radius_1.unwrap_or_else(|| libm::pow(second / 0.929, 1.0 / 0.732));
@@ -106,8 +106,8 @@ type Unsteady = (Circulation<f64>, RotationalForce<f64>, AddedMass<f64>);
 /// the added mass.
 ///
 /// # Errors
-/// Returns an error if no wing has the given radii, or if the integrals over the chord diverge at the root or
-/// the tip.
+/// Returns an error if no shape of the wing has the given radii. Returns an error if the integrals over the
+/// chord diverge at the root or the tip.
 pub(super) fn unsteady(p: &Params) -> Result<Unsteady, Invalid> {
     if !p.has_sections() {
         return Ok((Circulation::NONE, RotationalForce::NONE, AddedMass::NONE));

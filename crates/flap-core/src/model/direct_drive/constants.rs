@@ -41,7 +41,7 @@ crate::per_lane! {
         pub c_p: R,
         /// Conductance that represents the dielectric loss of the actuator (S).
         pub conductance: R,
-        /// Fraction, from 0 to 1, of the power returned by the actuator that the power supply recovers.
+        /// Power that the power supply recovers, divided by the power that the actuator returns: from 0 to 1.
         pub charge_recovery: R,
 
         /// Moment of inertia m₁₁ of actuator, leading edge and wing about the stroke axis (kg·m²).
@@ -76,7 +76,7 @@ crate::per_lane! {
         /// Half of the difference between the largest and the smallest drag coefficient, Eq. (26).
         pub drag_swing: R,
 
-        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
+        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
         pub harmonics: Harmonics<R>,
 
         /// Factors of φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² in the lift (kg), Eq. (21): ½ρA_w [R² I₂₁, −R c̄ I₁₂, c̄² I₀₃/4].

@@ -21,8 +21,8 @@ use crate::num::Real;
 pub(super) struct Air<R> {
     /// Translational and rotational aerodynamic forces.
     pub(super) forces: Aerodynamics<R>,
-    /// Force along the wing's normal, with its moments: circulation, rotational drag, and the part of the
-    /// added mass that is due to body motion.
+    /// Force along the wing's normal, and the moments of this force. The force is the sum of the circulation
+    /// force, the rotational drag, and the part of the added-mass force that body motion causes.
     pub(super) normal: NormalLoad<R>,
     /// Inertial moment g per stroke rate or pitch rate (N·m·s), see [`Shoulder::gyroscopic`].
     gyroscopic: R,

@@ -267,7 +267,7 @@ impl Model<4> for DirectDrive {
     }
 
     /// The second half of a period mirrors the first half about the rest position at the constant part of the
-    /// voltage. The constant part only shifts the stroke.
+    /// voltage. The constant part of the voltage only shifts the stroke.
     fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
         let [.., literal] = c.attack;
         if literal != 0.0 || self.terms.body != BodyTerms::None || !self.drive.is_symmetric(&c.drive) {

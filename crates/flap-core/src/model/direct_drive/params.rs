@@ -81,8 +81,8 @@ crate::parameters! {
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_3(2r/R - 1) in chord /
         /// mean_chord. The coefficient was fitted to the shape moments of Ozaki and Hamaguchi (2018).
         chord_legendre_3: f64 = ("", "a_3", Number(Any)) 0.176,
-        /// Table of the chord. If the table is on, flap computes mean_chord, midspan_chord, the shape moments
-        /// and rotation_moment from the table, for every flow_direction.
+        /// Table of the chord. If chord_table is "on", flap computes mean_chord, midspan_chord, the shape
+        /// moments and rotation_moment from the table, for every flow_direction.
         chords: ChordTable = (flatten) ChordTable::off(),
         /// Wing shape moment: normalised integral of chord^3 along the span, Eq. (22), for flow_direction = "uniform".
         shape_moment_03: f64 = ("", "I_w0,3", Number(Positive)) 1.02,
@@ -127,7 +127,7 @@ crate::parameters! {
         adhesive_density: f64 = ("kg/m^3", "rho_1", Number(NonNegative)) 1500.0,
         /// Density of the shim. The value of shim_density is already halved because of the slits in the shim.
         shim_density: f64 = ("kg/m^3", "rho_2", Number(NonNegative)) 2250.0,
-        /// Piezoelectric coefficient. If piezo_coefficient changes its sign, the motion changes into its
+        /// Piezoelectric coefficient. If you change the sign of piezo_coefficient, the motion becomes its
         /// mirror image.
         piezo_coefficient: f64 = ("m/V", "d_pz", Number(Any)) 950e-12,
         /// Permittivity of the piezoelectric layer. Ozaki and Hamaguchi (2018) do not state if the permittivity is for
@@ -163,7 +163,7 @@ crate::parameters! {
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Distance of the centre of pressure from the leading edge at an attack angle of 0, in chords, Eq. (24).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
-        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
+        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
         /// Factor that multiplies the rotational circulation of potential flow. With circulation_factor = 1,
         /// the circulation follows the theory of Kramer (1932) and Sane and Dickinson (2002). Ozaki and
@@ -305,9 +305,9 @@ impl Params {
 
     /// Returns a copy of the parameters with the hinge stiffness of `other`.
     ///
-    /// Presets with this hinge stiffness test the hypothesis that Table A1 of the paper swaps the values of
-    /// k_w for the two robots. The text of the paper neither proves nor disproves that the values of k_w are
-    /// swapped.
+    /// Presets with the hinge stiffness of the other robot test the hypothesis that Table A1 of the paper
+    /// swaps the two values of k_w. The text of the paper neither proves nor disproves the swap of the two
+    /// values.
     fn with_hinge_of(self, other: &Params) -> Params {
         Params { hinge_stiffness: other.hinge_stiffness, ..self }
     }

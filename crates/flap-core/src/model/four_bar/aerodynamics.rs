@@ -1,8 +1,8 @@
 //! Aerodynamic forces and moments on the wing of the four-bar model.
 //!
-//! The equations are Eqs. (5)–(10) and (16)–(18) of Arabagi, Hines and Sitti 2013, with the corrections listed in
-//! `docs/models/four-bar.md`. Lift is positive upwards. Q_θ is the moment about the stroke axis, and Q_φ the moment
-//! about the rotation axis.
+//! The equations are Eqs. (5)–(10) and (16)–(18) of Arabagi, Hines and Sitti 2013, with the corrections
+//! listed in `docs/models/four-bar.md`. Lift is positive upwards. Q_θ is the moment about the stroke axis,
+//! and Q_φ is the moment about the rotation axis.
 
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, FRAC_PI_4, PI};
 

@@ -32,7 +32,7 @@ crate::per_lane! {
         pub capacitance: R,
         /// Conductance that represents the dielectric loss of the actuator (S).
         pub conductance: R,
-        /// Fraction, from 0 to 1, of the power returned by the actuator that the power supply recovers.
+        /// Power that the power supply recovers, divided by the power that the actuator returns: from 0 to 1.
         pub charge_recovery: R,
         /// Equivalent mass m_eff of the actuator at its tip (kg).
         pub mass: R,
@@ -76,17 +76,17 @@ crate::per_lane! {
     /// Aerodynamic coefficients of the wing, and integrals over the shape of the wing.
     pub struct Air<R> {
         /// Constants of the lift coefficient, Eq. (9): constant term, amplitude of the sine, factor of the
-        /// attack angle, and the angle that is subtracted (rad).
+        /// attack angle, and angle that is subtracted in the sine (rad).
         pub lift: [R; 4],
         /// Constants of the drag coefficient, Eq. (10): constant term, amplitude of the cosine, factor of the
-        /// attack angle, and the angle that is subtracted (rad).
+        /// attack angle, and angle that is subtracted in the cosine (rad).
         pub drag: [R; 4],
         /// Lever arm of the centre of pressure about the rotation axis at an attack angle of 90°, in chords,
         /// Eq. (17).
         pub pressure_upright: R,
         /// Shift of the centre of pressure per radian of attack angle, in chords, Eq. (17).
         pub pressure_slope: R,
-        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
+        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
         pub harmonics: Harmonics<R>,
         /// Factors of θ̇², θ̇φ̇cosφ and (φ̇cosφ)² in the sum Σ c ½ρU²cΔr (kg·m²).
         pub chord: [R; 3],

@@ -23,7 +23,7 @@ use crate::model::stroke_and_pitch::Balance;
 use crate::num::{Lanes, Real};
 use crate::ode::step::Attempt;
 
-/// Limit of |u_C|/U. If |u_C|/U is below the limit, the `side` of the switching surface determines the
+/// Limit of |u_C|/U. If |u_C|/U is below `GRAZING`, the `side` of the switching surface determines the
 /// direction of the flow along the chord.
 const GRAZING: f64 = 1e-9;
 
@@ -263,7 +263,7 @@ fn motion_within<R: Real>(
 ///
 /// First, the function integrates a smooth load: it assumes that the flow past each strip does not change its
 /// direction within the step. If the flow past a strip reverses within the step, the function adds the
-/// integral of the load change over the time of reversed flow.
+/// integral of the change of the load that the reversal causes.
 ///
 /// The function `state` converts the integrated state at a time to the state of the wing. The function
 /// `slope` converts the derivative of the integrated state to the derivative of the state of the wing.

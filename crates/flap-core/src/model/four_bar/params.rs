@@ -1,9 +1,9 @@
 //! Parameters of the four-bar model, and presets for the two prototypes of the paper.
 //!
-//! The paper gives the links of one four-bar, voltages, frequencies, and the hinges' stiffness and damping.
-//! The paper also gives the series stiffness, the coefficient C_rot of the rotational drag, and the position
-//! of the rotation axis. All values that the paper does not give are assumed, as the descriptions of the
-//! parameters state.
+//! The paper gives the link lengths of one four-bar, voltages, frequencies, and the hinges' stiffness and
+//! damping. The paper also gives the series stiffness, the coefficient C_rot of the rotational drag, and the
+//! position of the rotation axis. All values that the paper does not give are assumed, as the descriptions of
+//! the parameters state.
 
 use crate::aero::{ChordTable, HarmonicParameters};
 use crate::body::BodyParameters;
@@ -192,7 +192,7 @@ crate::parameters! {
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Position of the centre of pressure at an attack angle of 0, in chords, Eq. (17).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
-        /// Terms of the force coefficients and of the centre of pressure that the paper leaves out.
+        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
         /// Factor that multiplies the rotational circulation of potential flow. With circulation_factor = 1,
         /// the circulation follows the theory of Kramer (1932) and Sane and Dickinson (2002). Arabagi et
@@ -222,11 +222,11 @@ crate::parameters! {
 crate::choice! {
     /// Definitions of the chordwise lever arms in Eqs. (8) and (17).
     pub enum Arms {
-        /// From the rotation axis, the mid-chord is at the distance c/2 and the centre of pressure is at the
-        /// distance d_cp c, as printed.
+        /// The distances from the rotation axis are c/2 (mid-chord) and d_cp c (centre of pressure), as
+        /// printed.
         Printed = "printed",
-        /// From the leading edge, the mid-chord is at the distance c/2, the centre of pressure at d_cp c, and
-        /// the rotation axis at χc.
+        /// The distances from the leading edge are c/2 (mid-chord), d_cp c (centre of pressure) and χc
+        /// (rotation axis).
         Axis = "axis",
     }
 }
