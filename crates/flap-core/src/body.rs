@@ -233,7 +233,7 @@ impl<R: Real> Shoulder<R> {
     /// (kg·m²), with the radius r and the distance d behind the pitch axis.
     ///
     /// The gyroscopic moment is −g φ̇ about the pitch axis and g ψ̇ about the stroke axis. The total power of
-    /// these two moments is zero.
+    /// the two gyroscopic moments is zero.
     ///
     /// ```text
     /// g = 2 sin ψ (I (Ω_t sin ψ + Ω_z cos ψ) − I_xz Ω_s)

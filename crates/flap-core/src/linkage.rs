@@ -195,8 +195,8 @@ crate::per_lane! {
 }
 
 impl<R: Real> LinkInertias<R> {
-    /// Returns the inertia G of the links about the stroke axis, and half of its derivative with respect to
-    /// the stroke angle (kg·m²). The source is Eq. 13 of Arabagi et al. (2013).
+    /// Returns the inertia G of the links about the stroke axis, and G′/2 (kg·m²). G′ is the derivative of G
+    /// with respect to the stroke angle. The formula of G is part of Eq. 13 of Arabagi et al. (2013).
     ///
     /// ```text
     /// G = Σ m_i |x_i′|² + Σ J_i θ_i′²     ½G′ = Σ m_i x_i′·x_i″ + Σ J_i θ_i′ θ_i″

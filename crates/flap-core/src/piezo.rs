@@ -3,7 +3,7 @@
 use crate::parameter::Kind::Number;
 use crate::parameter::Range::{NonNegative, Share};
 
-/// Permittivity of free space (F/m). The permittivities in the presets are multiples of this rounded value.
+/// Permittivity of free space (F/m). The permittivities in the presets are multiples of `EPSILON_0`.
 pub(crate) const EPSILON_0: f64 = 8.854_187_812_8e-12;
 
 /// One layer of a laminate.
@@ -84,8 +84,8 @@ impl ElectricalParameters {
     }
 }
 
-/// Returns the mean power (W) that the supply delivers. This power is the mean of the positive part of the
-/// actuator's power, minus the recovered part of the returned power.
+/// Returns the mean power (W) that the supply delivers. The delivered power is the mean of the positive part
+/// of the actuator's power, minus the recovered part of the returned power.
 ///
 /// `mean` is the mean of the actuator's power, including negative values.
 pub(crate) fn supplied(positive_mean: f64, mean: f64, recovery: f64) -> f64 {

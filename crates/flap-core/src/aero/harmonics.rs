@@ -1,5 +1,5 @@
 //! Terms that flap can add to a model's force coefficients and centre of pressure, as functions of the attack
-//! angle. The papers of the models do not contain these terms.
+//! angle. The papers of the models do not contain the additional terms.
 
 use crate::num::Real;
 use crate::parameter::Kind::Number;
@@ -23,8 +23,8 @@ crate::parameters! {
         /// coefficient. Here a is the attack angle. The paper of the model does not use lift_term_2.
         lift_term_2: f64 = ("", "l_2", Number(Any), default: 0.0),
         /// Coefficient p_c0 of the terms sin(2a) (p_c0 + p_c1 cos(2a)), which flap adds to the position of
-        /// the centre of pressure. Here a is the attack angle. p_c0 has the same unit as all other parameters
-        /// of the model for the position of the centre of pressure. The term with p_c0 is zero at attack
+        /// the centre of pressure. Here a is the attack angle. The unit of p_c0 is the unit of the model's
+        /// other parameters for the position of the centre of pressure. The term with p_c0 is zero at attack
         /// angles of 0 and 90 deg, and equals p_c0 at 45 deg. The paper of the model does not use
         /// pressure_term_0.
         pressure_term_0: f64 = ("", "p_c0", Number(Any), default: 0.0),

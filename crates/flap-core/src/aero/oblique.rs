@@ -108,9 +108,10 @@ pub struct ObliqueForces<R> {
     pub normal: R,
     /// Sum of the force F_C along the chord, over all strips (N).
     pub chordwise: R,
-    /// Sum of the normal force F_N times its lever arm about the stroke axis, over all strips (N·m).
+    /// Sum of the normal force F_N times the lever arm of F_N about the stroke axis, over all strips (N·m).
     pub normal_moment: R,
-    /// Sum of the force F_C along the chord times its lever arm about the stroke axis, over all strips (N·m).
+    /// Sum of the chordwise force F_C times the lever arm of F_C about the stroke axis, over all strips
+    /// (N·m).
     pub chordwise_moment: R,
     /// Sum of the normal force F_N times the distance from the pitch axis back to the centre of pressure,
     /// over all strips (N·m).

@@ -30,7 +30,7 @@ pub(crate) fn cut(rule: &[Node], offset: f64, length: f64, chord: impl Fn(f64) -
 }
 
 /// Checks that no chord is negative. `parameters` contains the names of the parameters that describe the
-/// chord. The error message contains the first and the last of these names.
+/// chord. The error message contains the first and the last name in `parameters`.
 pub(crate) fn check_chords(cuts: &[Cut], parameters: &[&str]) -> Result<(), Invalid> {
     let Some(cut) = cuts.iter().find(|cut| cut.chord < 0.0) else { return Ok(()) };
     let (first, last) = (parameters[0], parameters[parameters.len() - 1]);
@@ -48,8 +48,8 @@ pub(crate) fn sum(cuts: &[Cut], f: impl Fn(f64, f64) -> f64) -> f64 {
 
 /// The strips of a wing. The number of strips is at most `MAX`.
 ///
-/// All lanes loop over the same number of strips: the largest number of strips in any lane. In lanes with
-/// fewer strips, the surplus strips have a weight of zero and do not change the sums.
+/// All lanes compute as many strips as the lane with the most strips. In lanes with fewer strips, the surplus
+/// strips have a weight of zero and do not change the sums.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Strips<R, const MAX: usize> {
     count: usize,

@@ -2,7 +2,7 @@
 //!
 //! The normal of the wing is cos ψ e_t − sin ψ e_z, with the axes e_t and e_z of [`crate::body::Shoulder`].
 //! The force on a section of the wing is a sum of terms that contain powers of the chord and of the radius.
-//! Integrals of such powers over the wing therefore replace sums over strips.
+//! Integrals of the powers over the wing therefore replace sums over strips.
 
 use core::f64::consts::{FRAC_PI_4, PI};
 

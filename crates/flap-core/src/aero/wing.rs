@@ -30,8 +30,8 @@ pub struct Material {
     pub membrane: f64,
     /// Mass of the spar per length (kg/m).
     pub spar: f64,
-    /// Mass of the whole wing (kg), if the wing was weighed. flap then scales the computed masses of membrane
-    /// and spar so that their sum is the weighed mass.
+    /// Mass of the whole wing (kg), if the wing was weighed. flap scales the computed masses of membrane and
+    /// spar so that their sum is the weighed mass.
     pub weighed: Option<f64>,
 }
 

@@ -55,8 +55,8 @@ crate::per_lane! {
         /// Angular frequency of the drive (rad/s). For a chirp, `rate` is the angular frequency at the
         /// beginning.
         pub rate: R,
-        /// Rate of change of the angular frequency (rad/s²). This rate of change is zero for all waveforms
-        /// except a chirp.
+        /// Rate of change of the angular frequency (rad/s²). The angular frequency is constant for all
+        /// waveforms except a chirp.
         pub growth: R,
         /// Factors of sin 2θ and cos 2θ in the second harmonic.
         pub second: [R; 2],

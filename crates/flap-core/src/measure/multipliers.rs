@@ -10,8 +10,8 @@ const LONGEST: usize = 200;
 /// squaring does not prove that the matrix is stable, the test computes the eigenvalues.
 const STABILITY_SQUARINGS: u32 = 8;
 
-/// Number of times that a matrix is squared to compute its spectral radius. After this number of squarings,
-/// the error of the spectral radius is of the order of rounding errors.
+/// Number of times that a matrix is squared to compute its spectral radius. After `SQUARINGS` squarings, the
+/// error of the spectral radius is of the order of rounding errors.
 const SQUARINGS: u32 = 54;
 
 /// A matrix of N rows and columns, in row-major order.

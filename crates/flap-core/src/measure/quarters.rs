@@ -1,10 +1,10 @@
 //! Extrema of the signals in each quarter of a drive period, and time integrals of the signals over the whole
 //! period.
 //!
-//! Signals of a symmetric motion reach equal extrema in both half strokes. A change that breaks the symmetry
-//! raises one of the two extrema more than the other. As a function of this change, the larger extremum
-//! therefore has a kink. The two equal extrema of a symmetric motion lie in opposite quarters of the drive
-//! period.
+//! Signals of a symmetric motion reach equal extrema in both half strokes. A parameter that breaks the
+//! symmetry raises one of the two extrema more than the other extremum. As a function of the parameter, the
+//! larger extremum therefore has a kink. The two equal extrema of a symmetric motion lie in opposite quarters
+//! of the drive period.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 

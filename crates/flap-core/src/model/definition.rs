@@ -19,7 +19,7 @@ pub struct Description<'a> {
     pub name: &'static str,
     /// Description of the model in one line: the mechanism and the paper.
     pub doc: &'static str,
-    /// The parameter table. A point consists of one `f64` for each parameter in this table (see
+    /// The parameter table. A point consists of one `f64` for each parameter in the parameter table (see
     /// [`Parameter`]).
     pub parameters: &'a [Parameter<'a>],
     /// Published parameter sets.
@@ -31,7 +31,7 @@ pub struct Description<'a> {
     pub pitch_sign: i8,
     /// True if the model implements [`Model::load`], which computes the aerodynamic force and moment on the
     /// wing. If [`SolverSettings::loads`](crate::simulate::SolverSettings::loads) is set, the rows contain
-    /// this force and moment.
+    /// the aerodynamic force and moment.
     pub loads: bool,
     /// Function that computes the parameters of a user-defined wing. The value is `None` if the model does
     /// not support user-defined wings.
@@ -284,8 +284,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
 
     /// Returns the number of parts into which each step is divided to find extrema of the signals.
     ///
-    /// The size of the integration steps depends only on the motion. Return a number above 1 if signals
-    /// change faster than the motion.
+    /// The size of the integration steps depends only on the motion. Return a number of parts above 1 if
+    /// signals change faster than the motion.
     #[inline(always)]
     fn parts(&self) -> u32 {
         1

@@ -26,7 +26,7 @@ pub struct Load<R> {
 }
 
 impl<R: Real> Load<R> {
-    /// Returns a load with the number type of `number`, whose components are all NaN.
+    /// Returns a load whose components are all NaN, with the number type of `number`.
     pub(crate) fn unknown(number: R) -> Load<R> {
         let unknown = number.lit(f64::NAN);
         Load {

@@ -33,8 +33,8 @@ pub(crate) fn hinge_strain(per_angle: f64, largest: f64) -> f64 {
     if per_angle > 0.0 { per_angle * largest } else { f64::NAN }
 }
 
-/// Returns the mean power (W) that charges a capacitance (F) from one voltage (V) to another voltage at a
-/// frequency (Hz). The discharge returns no energy.
+/// Returns the mean power (W) that charges a capacitance (F) repeatedly at a frequency (Hz), each time from
+/// one voltage (V) to another voltage. The discharge returns no energy.
 pub(crate) fn charging(capacitance: f64, [low, high]: [f64; 2], frequency: f64) -> f64 {
     let voltage_pp = high - low;
     0.5 * capacitance * voltage_pp * voltage_pp * frequency

@@ -15,9 +15,9 @@ pub struct Signal {
     pub measures: &'static [Measure],
     /// Measures of the signal that have no columns, but are needed to compute derived columns.
     pub needed: &'static [Measure],
-    /// Measure of the signal whose integration error enters the error estimate of a row. The value is `None`
-    /// if the signal does not contribute to the error estimate. In each model, at least one signal
-    /// contributes to the error estimate.
+    /// The measure whose integration error contributes to the error estimate of a row. The value is `None` if
+    /// the signal does not contribute to the error estimate. In each model, at least one signal contributes
+    /// to the error estimate.
     pub principal: Option<Principal>,
     /// For a force: measures that have one column per wing in the rows of a vehicle.
     pub of_wings: &'static [Measure],
@@ -48,9 +48,9 @@ impl Signal {
     /// Returns the columns that the rows of a vehicle contain for a measure of this signal.
     ///
     /// For a mean power, the row of a vehicle contains the sum over all wings. The extrema and the root mean
-    /// square of a sum depend on the phase differences between the wings. For extrema and root mean squares,
-    /// the row therefore contains one column per wing. The row of a vehicle omits the forces of single wings,
-    /// because the row contains the force on the whole vehicle.
+    /// square of a sum over the wings depend on the phase differences between the wings. For extrema and root
+    /// mean squares, the row therefore contains one column per wing. The row of a vehicle omits the forces of
+    /// single wings, because the row contains the force on the whole vehicle.
     pub(crate) fn over_wings(&self, measure: Measure) -> OverWings {
         match (self.unit.name, measure) {
             _ if self.of_wings.contains(&measure) => OverWings::Each,
@@ -212,8 +212,8 @@ impl Measure {
     }
 }
 
-/// Quantities of a signal over one drive period, in SI units. The measures of the signal are computed from
-/// these quantities. Quantities that no measure requires are NaN.
+/// Quantities of a signal over one drive period, in SI units. flap computes the measures of the signal from
+/// the quantities in this struct. Quantities that no measure requires are NaN.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SignalCycle {
     /// Mean.
@@ -232,8 +232,8 @@ pub struct SignalCycle {
 }
 
 impl SignalCycle {
-    /// Replaces the mean of this power by the sum of the mean `losses`. If the mean of this power is NaN, the
-    /// function does nothing.
+    /// Sets the mean of a signal that is a power to the sum of the mean `losses`. If the mean power is NaN,
+    /// the function does nothing.
     ///
     /// In a periodic orbit, the mean power equals the sum of the mean losses, because capacitance, springs
     /// and inertia return all stored energy. If the losses are small or the motion is far from resonance,

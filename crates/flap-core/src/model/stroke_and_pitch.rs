@@ -47,9 +47,9 @@ impl<R: Real> Balance<R> {
     /// Returns the time derivative of the state `y` if the stroke is prescribed. The pitch acceleration is
     /// computed from the second equation of motion.
     ///
-    /// The state `y` also contains the stroke and its rate, which the integration keeps close to the
-    /// prescribed values. Integration errors in the stroke and the stroke rate decay at the rate `forgetting`
-    /// (1/s), so the errors do not accumulate.
+    /// The state `y` also contains the stroke and the stroke rate. The integration keeps the stroke and the
+    /// stroke rate in `y` close to the prescribed values. Integration errors in the stroke and the stroke
+    /// rate decay at the rate `forgetting` (1/s), so the errors do not accumulate.
     #[inline(always)]
     pub fn prescribed(&self, y: &[R; 4], stroke: &Wave<R>, forgetting: R) -> [R; 4] {
         let [_, m12, m22] = self.mass;
@@ -102,8 +102,8 @@ pub fn placed(stroke: [f64; 3], pitch: [f64; 3]) -> Imposed<Wave<f64>, 4> {
 
 /// Returns an error that reports a mass matrix that is not positive definite.
 ///
-/// The error message states that the values of the first two parameters contradict the values of the last two
-/// parameters.
+/// The argument contains four names of parameters. The error message states that the first two parameters
+/// contradict the last two parameters.
 pub(crate) fn inertias_apart([a, b, c, d]: &[&str; 4]) -> Invalid {
     Invalid::new(format!(
         "the mass matrix is not positive definite: the wing's inertias contradict each other ({a} and {b} against {c} and \

@@ -20,7 +20,7 @@ impl Terms {
     pub const NONE: Terms = Terms { body: BodyTerms::None, air: false, stiffening: false };
 
     /// Returns all terms that `self` or `other` contains. If `self` and `other` both contain terms of the
-    /// body's motion, the result contains these terms of `self`.
+    /// body's motion, the result contains only the terms of `self` for the body's motion.
     pub fn or(self, other: Terms) -> Terms {
         let body = if self.body == BodyTerms::None { other.body } else { self.body };
         Terms { body, air: self.air || other.air, stiffening: self.stiffening || other.stiffening }

@@ -73,7 +73,7 @@ impl Actuator {
 /// ```
 ///
 /// If δ is small, the closed formula for the integral I has a rounding error proportional to 1/δ³. If |δ| <
-/// ½, the function avoids this error: it expands the integrand of I in powers of δz.
+/// ½, the function avoids the rounding error: it expands the integrand of I in powers of δz.
 ///
 /// # Errors
 /// Returns an error if the width ratio is not between 0 and 2. At the ratios 0 and 2, the width of the

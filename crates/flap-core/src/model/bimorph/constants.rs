@@ -165,8 +165,8 @@ crate::per_lane! {
     }
 }
 
-/// Largest allowed magnitude of an exponent in the equations. This limit is necessary because the exponential
-/// function for lanes does not check the range of its argument.
+/// Largest allowed magnitude of an exponent in the equations. The exponents need a limit because the
+/// exponential function for lanes does not check the range of its argument.
 pub(super) const EXPONENT_MAX: f64 = 600.0;
 
 /// Checks that the exponents in Eqs. (4) and (6) stay below the limit for plate voltages of up to
@@ -324,7 +324,7 @@ impl Constants<f64> {
     ///
     /// The voltages of the plates vary in antiphase, so the mean of the electric fields in both plates is
     /// constant. The moduli of the plates are E (1 − a ℰ₁) and E (1 − a ℰ₂). The sum of the stiffnesses of
-    /// both plates is therefore also constant.
+    /// both plates is therefore constant.
     #[must_use]
     pub(super) fn with_drive(&self, drive: DriveConstants<f64>) -> Constants<f64> {
         let DriveConstants { bias, amplitude, .. } = drive;

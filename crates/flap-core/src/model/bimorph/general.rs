@@ -8,8 +8,8 @@
 //! direction of the flow varies along the span. If the body moves, the model therefore divides the wing into
 //! four strips ([`super::strips`]).
 //!
-//! The functions of this module are not inlined into the equations of the paper. If the terms that the paper
-//! leaves out are all zero, the module needs no computing time.
+//! The functions of this module are not inlined into the code for the equations of the paper. If the terms
+//! that the paper leaves out are all zero, the module needs no computing time.
 
 use core::f64::consts::FRAC_2_PI;
 

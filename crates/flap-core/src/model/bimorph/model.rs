@@ -104,8 +104,8 @@ const DERIVED: &[Column] = &[
 ];
 
 /// Returns the time integrals and extrema of the signals over the second half of a symmetric period. The
-/// second half equals the first half with the two plates exchanged, and with opposite signs of stroke, pitch
-/// and drag.
+/// second half of the period equals the first half with the two plates exchanged, and with opposite signs of
+/// stroke, pitch and drag.
 fn second_half(first: &Signals<Totals<f64>>) -> Signals<Totals<f64>> {
     let same = Signals::map(first, |_, totals| totals.repeated());
     Signals {
@@ -436,7 +436,7 @@ impl Model<4> for Bimorph {
     }
 
     /// The drive voltage can cross the stress transition of Eq. (6) within a fraction of a step. When the
-    /// voltage crosses the transition, the currents have peaks.
+    /// voltage crosses the stress transition, the currents have peaks.
     #[inline(always)]
     fn parts(&self) -> u32 {
         if self.drive.waveform == Waveform::Shape(Shape::Square) { 6 } else { 2 }

@@ -224,7 +224,7 @@ crate::choice! {
         Folded = "folded",
         /// ψ sign(ẋ): the attack angle is measured from the direction of motion.
         Directional = "directional",
-        /// ψ: the angle as printed in the paper. With this angle, the two half strokes are not mirror images
+        /// ψ: the angle as printed in the paper. With the angle ψ, the two half strokes are not mirror images
         /// of each other.
         Literal = "literal",
     }

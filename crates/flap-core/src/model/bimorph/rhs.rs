@@ -37,8 +37,8 @@ pub struct Plate<R> {
 /// V₁ = ½V_pp (1 − wave)     V₂ = ½V_pp (1 + wave)
 /// ```
 ///
-/// In addition, half of the parameter `drive_offset` is added to V₁ and subtracted from V₂. The plates can
-/// have different forces at the same voltage, so `c` contains one force constant for each plate.
+/// Half of the parameter `drive_offset` is added to V₁, and half is subtracted from V₂. The plates can have
+/// different forces at the same voltage, so `c` contains one force constant for each plate.
 #[inline(always)]
 pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
     let DriveConstants { bias, amplitude, .. } = c.drive;
@@ -59,8 +59,8 @@ pub fn plates<R: Real>(c: &Constants<R>, wave: &Wave<R>) -> [Plate<R>; 2] {
 /// ```
 ///
 /// `check_transitions` limits the exponents to `EXPONENT_MAX`. The product of the two denominators in S₁ and
-/// S₂ therefore overflows only if both S₁ and S₂ are below 1e-47. If this product overflows, the function
-/// returns zero for S₁ and S₂.
+/// S₂ therefore overflows only if both S₁ and S₂ are below 1e-47. If the product of the denominators
+/// overflows, the function returns zero for S₁ and S₂.
 #[inline(always)]
 fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
     let [e_1, e_2] = c.transition;
@@ -70,8 +70,9 @@ fn transitions<R: Real>(c: &Constants<R>, wave: R) -> [R; 2] {
     [second * both, first * power * both]
 }
 
-/// Returns a plate: its force at zero strain, Eq. (6), and the derivatives of this force. The current of the
-/// plate depends on these derivatives. `s` is the progress of the stress transition, from 0 to 1.
+/// Returns the force of a plate at zero strain, Eq. (6), and the derivatives of this force. The current of
+/// the plate depends on the derivatives of the force. `s` is the progress of the stress transition, from 0 to
+/// 1.
 ///
 /// ```text
 /// g = F_pre ℰ f₃₁(ℰ)     f₃₁ = f_min + A S     A = f_max (1 − a₄ℰ) − f_min

@@ -5,8 +5,8 @@
 //! [`super::rhs`] computes the same derivatives as this module, apart from rounding errors.
 //!
 //! Body motion requires blade elements, because on a moving body each blade element has its own direction of
-//! flow. The aerodynamic functions of this module are not inlined into the equations of the paper. If the
-//! terms that the paper leaves out are all zero, the module needs no computing time.
+//! flow. The aerodynamic functions of this module are not inlined into the code for the equations of the
+//! paper. If the terms that the paper leaves out are all zero, the module needs no computing time.
 
 use super::constants::Constants;
 use super::rhs::{Aerodynamics, added_mass, aerodynamics, balance_in};

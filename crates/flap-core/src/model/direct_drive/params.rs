@@ -43,7 +43,7 @@ crate::parameters! {
         mass_centre_span: f64 = ("m", "r_g", Number(Any), scales_with: &[("wing_length", 1.0)]) 9.42e-3,
         /// Chordwise position of the wing's centre of mass, positive towards the leading edge. The centre of
         /// mass of a real wing is behind the leading edge, so mass_centre_chord is negative. Ozaki and
-        /// Hamaguchi (2018) print the magnitude without the sign.
+        /// Hamaguchi (2018) print mass_centre_chord without the minus sign.
         mass_centre_chord: f64 = ("m", "y_g", Number(Any), scales_with: &[("wing_length", 1.0)]) -2.48e-3,
         /// Moment of inertia of the wing about the spanwise axis through its centre of mass.
         wing_inertia_span: f64 = ("kg*m^2", "J_wx", Number(NonNegative), scales_with: &[("wing_length", 4.0)]) 4.81e-12,

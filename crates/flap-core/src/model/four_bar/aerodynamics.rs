@@ -168,10 +168,10 @@ pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
 /// N = L_r/sin φ − Σ m_a (r A + κc φ̈)     L = L_t + N sin φ     D = D_t − N cos φ     m_a = π/4 ρ c²Δr
 /// ```
 ///
-/// The moments of lift and drag are the sums for lift and drag with the additional factor r. The span moment
-/// M_s is −Q_φ, because a positive φ moves the trailing edge in the direction of the stroke. In M_s, the sums
-/// of the added mass have the additional factor κc. Here κc is the distance c/2 − z_RA of Eq. (7). In the
-/// equations of motion, the added mass acts at the centre of mass of the wing, Eq. (19).
+/// The moments of lift and drag are the sums for lift and drag, but each term is also multiplied by r. The
+/// span moment M_s is −Q_φ, because a positive φ moves the trailing edge in the direction of the stroke. In
+/// M_s, each term in the sums of the added mass is also multiplied by κc. Here κc is the distance c/2 − z_RA
+/// of Eq. (7). In the equations of motion, the added mass acts at the centre of mass of the wing, Eq. (19).
 #[inline(always)]
 pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
     let (sin, cos) = y[1].sin_cos();

@@ -110,10 +110,10 @@ crate::per_lane! {
         /// r²c²Δr.
         pub added_stroke_2: R,
         /// Moment of the added mass about the shoulder, divided by the pitch acceleration (kg·m²): π/4 ρ Σ r
-        /// κc³Δr. In this sum, κc is the distance c/2 − z_RA of Eq. (7).
+        /// κc³Δr. In the sum over the strips, κc is the distance c/2 − z_RA of Eq. (7).
         pub added_pitch_1: R,
         /// Moment of the added mass about the rotation axis, divided by the pitch acceleration (kg·m²): π/4 ρ
-        /// Σ κ²c⁴Δr. In this sum, κc is the distance c/2 − z_RA of Eq. (7).
+        /// Σ κ²c⁴Δr. In the sum over the strips, κc is the distance c/2 − z_RA of Eq. (7).
         pub added_span: R,
     }
 }

@@ -5,8 +5,8 @@
 //! this module, apart from rounding errors.
 //!
 //! On a moving body, each strip has its own direction of flow, and the lift of each strip jumps at a
-//! different time. The aerodynamic functions of this module are not inlined into the equations of the paper.
-//! If the terms that the paper leaves out are all zero, the module needs no computing time.
+//! different time. The aerodynamic functions of this module are not inlined into the code for the equations
+//! of the paper. If the terms that the paper leaves out are all zero, the module needs no computing time.
 //!
 //! The pitch ψ in [`crate::body`] has the opposite sign of the pitch φ in the four-bar model: ψ = −φ.
 
