@@ -22,12 +22,13 @@ use super::macros::{constants_on_the_right, functions_of_lanes, operator};
 use super::pair::Pair;
 use super::real::Real;
 
-/// A value that exists only if the processor has the instructions AVX-512 F, DQ, BW, VL and CD, FMA and BMI2.
+/// Proof that the processor has the instructions AVX-512 F, DQ, BW, VL and CD, FMA and BMI2. The only way to
+/// create this value is a check of the processor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Avx512(());
 
 impl Avx512 {
-    /// Returns the value of this type if the processor has the AVX-512 instructions, and `None` otherwise.
+    /// Returns the proof if the processor has the AVX-512 instructions, and `None` otherwise.
     pub(super) fn detect() -> Option<Avx512> {
         let has = is_x86_feature_detected!("avx512f")
             && is_x86_feature_detected!("avx512dq")

@@ -51,12 +51,13 @@ pub trait Kernel {
     /// Result of the computation.
     type Output;
 
-    /// Runs the computation with the instructions of `S`. Write `#[inline(always)]` before the implementation
-    /// of this function.
+    /// Runs the computation with the SIMD instructions of the type `S`. Write `#[inline(always)]` before the
+    /// implementation of this function.
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
-/// A value that exists only if the processor has the instructions of a backend.
+/// Proof that the processor has the instructions of a backend. The only way to create this value is a check
+/// of the processor.
 #[derive(Clone, Copy, Debug)]
 enum Proof {
     #[cfg(target_arch = "x86_64")]
@@ -140,7 +141,7 @@ impl Backend {
     }
 }
 
-/// Calls `kernel` from a function that the compiler translates into the instructions of `S`.
+/// Calls `kernel` in a function that the compiler translates into the SIMD instructions of the type `S`.
 #[inline(always)]
 fn enter<S: Simd, K: Kernel>(simd: S, kernel: K) -> K::Output {
     simd.vectorize(

@@ -1,5 +1,5 @@
-//! Elementary functions for numbers with lanes, computed by polynomials. On all machines of the same
-//! arithmetic class, the results are equal to the last bit.
+//! Elementary functions for scalars and SIMD vectors, computed by polynomials. Machines of one arithmetic
+//! class compute results that are equal to the last bit.
 //!
 //! Sine, cosine and exponential are minimax polynomials. The polynomial of the exponential is valid for
 //! arguments r with |r| ≤ ½ ln 2. The logarithm uses the method of `e_log.c` in FreeBSD's library msun (Sun
@@ -88,7 +88,7 @@ pub(super) fn sin_cos<R: Bits>(x: R) -> (R, R) {
     (sin.flip_sign_by_lowest_bit(odd), cos.flip_sign_by_lowest_bit(odd))
 }
 
-/// ln 2 as the sum of two numbers. The first number has 33 significant bits.
+/// ln 2 as the sum of two numbers, of which the first number has 33 significant bits.
 const LN_2: [f64; 2] = [6.931_471_803_691_238e-1, 1.908_214_929_270_587_7e-10];
 
 /// Coefficients of 1, r, r², … in a polynomial for (e^r − 1)/r. For |r| up to ½ ln 2, the error of the

@@ -36,7 +36,7 @@ pub trait Lanes: Real + Bits {
     /// Number of lanes.
     const LANES: usize;
 
-    /// Type of a value that exists only if the processor has the instructions of this number type.
+    /// Type of a value that proves that the processor has the instructions of this number type.
     type Token: Copy;
 
     /// Returns a number with the value `c` in every lane.
@@ -52,8 +52,8 @@ pub trait Lanes: Real + Bits {
     /// lane 0.
     fn mask(token: Self::Token, bits: u64) -> Self::Mask;
 
-    /// Returns a number with one bit for each lane, which is set if `mask` is true in the lane. The lowest
-    /// bit is the bit of lane 0.
+    /// Returns a number with one bit for each lane. The bit of a lane is set if `mask` is true in this lane.
+    /// The lowest bit is the bit of lane 0.
     fn bits(mask: Self::Mask) -> u64;
 
     /// Returns an approximation of 1/x for a normal positive number x up to 2^1022. The relative error is
@@ -82,8 +82,8 @@ pub trait Lanes: Real + Bits {
     }
 }
 
-/// A value that exists only if the processor has a set of SIMD instructions. The type
-/// [`OneLane`](super::OneLane) takes the place of SIMD instructions for scalars.
+/// A value that proves that the processor has a set of SIMD instructions. The type
+/// [`OneLane`](super::OneLane) implements this trait for computations on scalars.
 pub trait Simd: Copy {
     /// Number type that the instructions compute with: two registers of `f64`, or one scalar.
     type Vector: Lanes<Token = Self>;
@@ -107,8 +107,7 @@ pub(super) const EXPONENT_BITS: u64 = 0x7ff0_0000_0000_0000;
 pub(super) const ONE_BITS: u64 = 0x3ff0_0000_0000_0000;
 /// Sum of the bit patterns of a power of two and of its reciprocal.
 pub(super) const RECIPROCAL_BITS: u64 = 0x7fe0_0000_0000_0000;
-/// Change of [`Bits::linear_log2`] if the bit pattern of the number, without its last 12 bits, increases by
-/// 1.
+/// Change of [`Bits::linear_log2`] if the upper 52 bits of the number, read as an integer, increase by 1.
 pub(super) const OCTAVE: f64 = 1.0 / 1_099_511_627_776.0;
 pub(super) const TWO_52: f64 = 4_503_599_627_370_496.0;
 pub(super) const TWO_52_BITS: u64 = 0x4330_0000_0000_0000;

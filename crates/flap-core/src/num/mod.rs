@@ -6,11 +6,11 @@
 //!
 //! - no operation combines numbers of different lanes, so the result in a lane never depends on other lanes;
 //! - elementary functions are polynomials in this crate, and not functions of std or the C library;
-//! - the Rust compiler neither reassociates nor contracts floating-point expressions.
+//! - the Rust compiler neither changes the order of floating-point operations nor fuses them.
 //!
 //! [`Real`] contains all operations of the equations. [`Lanes`] adds the access to single lanes that the
 //! integrator needs. [`PerLane`] is a group of numbers, such as the constants of a point, with separate
-//! values in each lane. A [`Backend`] is the choice of a set of SIMD instructions.
+//! values in each lane. A [`Backend`] is a set of SIMD instructions, or arithmetic on scalars.
 //!
 //! `mul_add` rounds once on processors with a fused multiply-add (AVX2, AVX-512, NEON), and twice on other
 //! processors. Results of the two [arithmetic classes](Arithmetic) differ by about the integration tolerance.

@@ -1,7 +1,7 @@
 //! A pair of two groups of lanes, which doubles the number of lanes.
 //!
-//! A right-hand side is a long chain of dependent operations. While one operation of this chain waits for the result of
-//! another operation, the processor computes the second group of lanes.
+//! A right-hand side is a long chain of dependent operations. While an operation on one group of lanes waits
+//! for an earlier result, the processor computes operations on the other group of lanes.
 
 use core::ops::{BitAnd, BitOr, Not};
 

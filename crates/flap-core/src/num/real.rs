@@ -7,7 +7,7 @@ use core::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 /// Write equations with the ordinary operators, and write literals on the right of an operator (`x * 0.5 + 1.0`).
 /// Comparisons return a mask. Combine masks with `&`, `|` and `!`, and use [`Real::select`] instead of `if`.
 ///
-/// Other types may implement this trait, such as dual numbers for automatic differentiation.
+/// Your own types may also implement this trait, for example dual numbers for automatic differentiation.
 pub trait Real:
     Copy
     + Add<Output = Self>
@@ -43,20 +43,20 @@ pub trait Real:
     /// Returns sine and cosine of an angle (rad), for |x| up to 10^6, with errors below 10^-15.
     fn sin_cos(self) -> (Self, Self);
 
-    /// Returns e^x. The result is infinite above 709.78, zero below −708.39 (where e^x is a subnormal number), and NaN
-    /// for NaN.
+    /// Returns e^x. The result is infinite for x > 709.78, zero for x < −708.39 (where e^x is a subnormal
+    /// number), and NaN for NaN.
     fn exp(self) -> Self;
 
-    /// Returns e^x − 1. The result is accurate for small x, too. The result is infinite above 709.78, and NaN
-    /// for NaN.
+    /// Returns e^x − 1. The result is also accurate for x near zero. The result is infinite for x > 709.78,
+    /// and NaN for NaN.
     fn exp_m1(self) -> Self;
 
     /// Returns the natural logarithm. The result is −∞ for 0 and subnormal numbers, and NaN for negative numbers and
     /// for NaN.
     fn ln(self) -> Self;
 
-    /// Returns ln(1 + x). The result is accurate for small x, too. The result is −∞ for x = −1, and NaN for
-    /// smaller x and for NaN.
+    /// Returns ln(1 + x). The result is also accurate for x near zero. The result is −∞ for x = −1, and NaN
+    /// for x < −1 and for NaN.
     fn ln_1p(self) -> Self;
 
     /// Returns a mask that is true in the lanes with `self < other`. The mask is false in lanes in which one
@@ -66,8 +66,8 @@ pub trait Real:
     /// Returns `yes` in the lanes in which `mask` is true, and `no` in the other lanes.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
-    /// Calls `table` with the value of `self` in each lane, and returns the numbers that `table` returns.
-    /// These numbers are constants: their derivatives with respect to `self` are zero.
+    /// Calls `table` with the value of `self` in each lane, and returns the numbers that `table` returns. The
+    /// derivatives of the returned numbers with respect to `self` count as zero.
     fn look_up<const N: usize>(self, table: impl Fn(f64) -> [f64; N]) -> [Self; N];
 
     /// Calls `work`. Scalars and SIMD types do not inline the call, so that the compiler compiles `work` only
@@ -103,29 +103,30 @@ pub trait Real:
         angle_over(self, x)
     }
 
-    /// Returns [`Real::exp`] of a number from −708 to 709. The function does not check this range. Outside
-    /// this range, the result is unspecified.
+    /// Returns [`Real::exp`] of a number from −708 to 709. The function does not check the number. For all
+    /// numbers outside the range from −708 to 709, the result is unspecified.
     #[inline(always)]
     fn exp_of_ordinary(self) -> Self {
         self.exp()
     }
 
-    /// Returns [`Real::exp_m1`] of a number from −708 to 709. The function does not check this range. Outside
-    /// this range, the result is unspecified.
+    /// Returns [`Real::exp_m1`] of a number from −708 to 709. The function does not check the number. For all
+    /// numbers outside the range from −708 to 709, the result is unspecified.
     #[inline(always)]
     fn exp_m1_of_ordinary(self) -> Self {
         self.exp_m1()
     }
 
-    /// Returns [`Real::ln`] of a normal positive number. The function does not check its argument. For all
-    /// other arguments, the result is unspecified.
+    /// Returns [`Real::ln`] of a normal positive number. The function does not check the number. For numbers
+    /// that are not normal and positive, the result is unspecified.
     #[inline(always)]
     fn ln_of_normal(self) -> Self {
         self.ln()
     }
 
     /// Returns [`Real::ln_1p`] of a number x > −1, if 1 + x is a normal number up to 10^300. The function
-    /// does not check its argument. For all other arguments, the result is unspecified.
+    /// does not check `self`. If 1 + x is not a normal positive number up to 10^300, the result is
+    /// unspecified.
     #[inline(always)]
     fn ln_1p_of_normal(self) -> Self {
         self.ln_1p()
@@ -134,8 +135,9 @@ pub trait Real:
 
 /// Coefficients of a rational function of x² that approximates (arctan x − x)/x³, for |x| up to tan(π/8).
 ///
-/// The first array contains the numerator. The second array contains the denominator without its leading
-/// coefficient 1. The coefficients are in descending order of the powers (Cephes, `atan.c`; Moshier, 1995).
+/// The first array contains the coefficients of the numerator. The second array contains the coefficients of
+/// the denominator, except the leading coefficient 1. The coefficients are in descending order of the powers
+/// (Cephes, `atan.c`; Moshier, 1995).
 const ARCTAN: [[f64; 5]; 2] = [
     [
         -8.750_608_600_031_904e-1,

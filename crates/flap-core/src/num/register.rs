@@ -11,7 +11,7 @@ use super::macros::{constants_on_the_right, functions_of_lanes, of_inner, operat
 use super::pair::Pair;
 use super::real::Real;
 
-/// A value that exists only if the processor has the instructions of `S`.
+/// A value that proves that the processor has the SIMD instructions of the type `S`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Instructions<S>(pub(super) S);
 

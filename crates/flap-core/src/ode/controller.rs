@@ -1,14 +1,14 @@
 //! The step-size controller accepts or rejects a step according to the error of the step, and chooses the
 //! next step size.
 //!
-//! The method is proportional-integral control with the constants of DOPRI5 (Hairer I, section II.4 and the
-//! code). The safety factor is 0.9, and β is 0.04. Right after a rejected step, the step size does not grow.
-//! The next step size is 0.21 to 9.5 times the last step size (0.2 to 10 times in DOPRI5).
+//! The method is proportional-integral control, with the constants in section II.4 of Hairer I and in the
+//! code DOPRI5. The safety factor is 0.9, and β is 0.04. Right after a rejected step, the step size does not
+//! grow. The next step size is 0.21 to 9.5 times the last step size (0.2 to 10 times in DOPRI5).
 //!
 //! The base-2 logarithm of the factor between two step sizes is rounded to a multiple of 1/8. Two motions
 //! that hardly differ are therefore integrated with exactly the same steps, and their final states also
-//! hardly differ. Without this rounding, the state at the end of a period would vary by the integration
-//! error. Because of this variation, a motion would not meet a tight settling tolerance.
+//! hardly differ. Without the rounding of step sizes, the state at the end of a period would vary by the
+//! integration error. A motion would then not repeat within a tight settling tolerance.
 
 use crate::num::Lanes;
 

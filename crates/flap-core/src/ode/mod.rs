@@ -6,16 +6,16 @@
 //! - [`norm`], `controller`, `start`: computation of the size of the error, of the next step size, and of the
 //!   first step size
 //! - `switch`: integration of right-hand sides that jump where a switching function changes sign
-//! - `replay`: integration of runs on the recorded steps of an earlier run, with different constants and
-//!   initial states
+//! - `replay`: integration of runs with the step sizes of an earlier run, from changed constants and initial
+//!   states
 //! - `variation`: integration of a run together with its responses to small changes of the initial state
 //! - [`solve`]: integration of one run on scalars, in simple code. Tests compare the ensemble with this code
 //! - [`ensemble`]: integration of many runs in lanes, each with its own time, step size and constants
 //!
 //! The integration of a run is divided into *time spans*, usually drive periods. Time is 0 at the beginning
 //! of each time span, and the last step ends exactly at the end of the time span. At the end of a time span,
-//! the caller checks the state. The caller then stops the run or starts the next time span. If the inputs are
-//! the same in each time span, the numbers for the time therefore stay small in long runs.
+//! the caller checks the state. The caller then stops the run or starts the next time span. The time
+//! therefore stays small in long runs. The inputs must be the same in each time span.
 //!
 //! To integrate your own equations, implement [`Ode`]. `examples/jafferis_fig2_3` integrates three systems
 //! until their motions have settled, and `examples/own_equations` runs thousands of points in lanes.

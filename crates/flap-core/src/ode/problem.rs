@@ -32,8 +32,8 @@ pub trait Ode<const N: usize>: Sync {
     /// within a step. The integrator changes `side` when the motion reaches the surface.
     fn rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N];
 
-    /// True if some variants of the equations are [plain](Ode::is_plain). The compiler then compiles the
-    /// steps of plain variants separately from the steps of all other variants.
+    /// True if [`Ode::is_plain`] returns true for some variants of the equations. The compiler then compiles
+    /// the steps of plain variants separately from the steps of all other variants.
     const HAS_PLAIN: bool = false;
 
     /// Returns true if this variant of the equations is plain: [`Ode::plain_rhs`] computes the derivative ẏ
@@ -54,8 +54,8 @@ pub trait Ode<const N: usize>: Sync {
     /// Returns the next time after `t` (s) at which the inputs are not smooth, for example at the edge of a
     /// square wave.
     ///
-    /// The result is infinite if the inputs are smooth after `t`. A step always ends at each time at which
-    /// the inputs are not smooth.
+    /// The result is infinite if the inputs are smooth at all times after `t`. A step always ends at each
+    /// time at which the inputs are not smooth.
     #[inline(always)]
     fn next_break<R: Real>(&self, c: &Self::Constants<R>, t: R) -> R {
         let _ = c;
@@ -71,8 +71,8 @@ pub trait Ode<const N: usize>: Sync {
     /// A motion that stays on the surface, such as a stroke that sticks due to friction, crosses the surface
     /// again and again in short steps. The row of such a motion has the status
     /// [`StepLimit`](crate::simulate::Status::StepLimit), or an infinite error estimate. A motion that begins
-    /// on the surface, at rest and with a drive that begins at zero, also needs too many short steps. For
-    /// this motion, choose an initial state with a small rate.
+    /// on the surface, at rest and with a drive that begins at zero, also needs too many short steps. Such a
+    /// motion needs an initial state with a small rate, instead of rest.
     #[inline(always)]
     fn switch<R: Real>(&self, c: &Self::Constants<R>, y: &[R; N], dy: &[R; N]) -> [R; 2] {
         let _ = (c, dy);
@@ -139,7 +139,7 @@ impl<C, const N: usize> Start<C, N> {
         Start { constants, y, span, scale, tolerance_factor: 1.0, change: scale }
     }
 
-    /// Returns the start of the same run with different `constants`.
+    /// Returns a copy of this start, but with the given `constants`.
     pub(crate) fn with<D>(&self, constants: D) -> Start<D, N> {
         let Start { y, span, scale, tolerance_factor, change, .. } = *self;
         Start { constants, y, span, scale, tolerance_factor, change }

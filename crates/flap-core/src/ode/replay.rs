@@ -1,10 +1,11 @@
-//! Integration of runs on the recorded steps of an earlier run, with different constants and initial states.
+//! Integration of runs with the recorded step sizes of an earlier run, from changed constants and initial
+//! states.
 //!
 //! If a step-size controller chooses the steps, the final state jumps by about the tolerance when a constant
 //! changes. If the steps are fixed fractions of the time span, the final state is a smooth function of the
 //! constants. Finite differences of the final state are then accurate derivatives at any tolerance. If a
-//! recorded step ends on the switching surface, the repeated step also ends on the surface. The run may reach
-//! the surface at a different time.
+//! recorded step ends on the switching surface, the repeated step also ends on the surface. A repeated step
+//! may reach the surface earlier or later than the recorded step.
 
 use core::ops::ControlFlow;
 
@@ -26,7 +27,7 @@ pub(crate) struct RecordedStep {
     pub(crate) lands: bool,
 }
 
-/// Result of a run on recorded steps.
+/// Result of a run that was integrated with recorded steps.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Repeated<T, const N: usize> {
     /// Final state.
@@ -34,7 +35,8 @@ pub(crate) struct Repeated<T, const N: usize> {
     /// Totals of the observer.
     pub(crate) totals: T,
     /// True if the run and the recorded run reached the switching surface at almost equal times. The
-    /// difference must be a small fraction of a mean step. If `meets` is false, the result is unusable.
+    /// difference of the two times must be a small fraction of a mean step. If `meets` is false, the result
+    /// is unusable.
     pub(crate) meets: bool,
 }
 
@@ -68,11 +70,11 @@ pub(crate) fn record<O: Ode<N>, R: Scalar, const N: usize>(
     (recording, outcome)
 }
 
-/// Integrates one run from each of `starts`, in lanes, on the steps of `recording`. The steps are scaled to
+/// Integrates one run from each of `starts`, in lanes, with the steps of `recording`. The steps are scaled to
 /// the time span of each run.
 ///
 /// Every run evaluates the right-hand side six times per step, or 18 times if the step ends on the switching
-/// surface. One more evaluation is necessary at the start and after each change of the side.
+/// surface. One more evaluation is necessary at the start, and after each crossing of the switching surface.
 pub(crate) fn replay<S, O, V, const N: usize>(
     simd: S,
     ode: &O,
@@ -96,14 +98,15 @@ where
 }
 
 /// Number of times that a step is repeated so that it ends on the switching surface. The first attempt ends
-/// close to the surface, and each repetition squares this small distance.
+/// close to the surface. Each repetition is a Newton step, which about squares the small distance from the
+/// surface.
 const LANDINGS: u32 = 2;
 
 /// Largest allowed shift of the time at which a run reaches the switching surface, as a fraction of a mean
 /// step.
 const NEAR: f64 = 1e-2;
 
-/// Integrates a group of runs on the steps of `recording`. The group has at most one run for each lane.
+/// Integrates a group of runs with the steps of `recording`. The group has at most one run for each lane.
 #[inline(always)]
 fn in_lanes<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize>(
     token: R::Token,

@@ -190,7 +190,7 @@ impl<R: Real, const N: usize> Step<R, N> {
     }
 }
 
-/// Largest size of an input, in numbers, for which the inputs of all stages of a step are computed together.
+/// Largest number of input values for which the inputs of all stages of a step are computed together.
 const AHEAD: usize = 3;
 
 /// Number of state components that are summed together, so that the sums stay in registers.

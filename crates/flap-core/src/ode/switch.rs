@@ -5,15 +5,15 @@
 //!
 //! If an accepted step ends on the opposite side of the surface, the integrator computes the crossing from a
 //! cubic polynomial. The polynomial has the values and the rates of the switching function at the two ends of
-//! the step. The step is then repeated up to the crossing. The repeated step may end more than a thousandth
-//! of an ordinary step away from the surface. In this case, Newton's method corrects the step size, and the
-//! step is repeated again. When a step ends on the surface, the integrator changes the side and computes the
-//! first slope of the next step again.
+//! the step. The integrator then computes the step again, with a step size that ends at the crossing. If this
+//! step ends more than a thousandth of an ordinary step away from the surface, Newton's method corrects the
+//! step size again. When a step ends on the surface, the integrator changes the side and computes the first
+//! slope of the next step again.
 //!
 //! Two crossings within one step do not change the sign of the switching function at the end of the step. The
-//! switching function then approaches zero at the beginning of the step and departs from zero at the end. If
-//! the cubic polynomial also has a minimum on the opposite side, the step is repeated up to this minimum,
-//! after the first crossing.
+//! switching function then moves towards zero at the beginning of the step, and away from zero at the end. If
+//! the minimum of the cubic polynomial lies on the opposite side of the surface, the integrator computes the
+//! step again up to this minimum.
 
 use super::step::Step;
 use super::variation::{Varied, crossed, slopes_outlined};
@@ -35,8 +35,8 @@ const REACHED: f64 = 1e-2;
 /// Largest distance from the surface, as a fraction of an ordinary step, at which the step size is corrected.
 const NEAR: f64 = 0.1;
 
-/// A minimum of the switching function indicates two crossings within a step only if it lies after this
-/// fraction of the step.
+/// A minimum of the switching function indicates two crossings within a step only if the minimum lies after
+/// this fraction of the step.
 const EARLIEST: f64 = 1e-2;
 
 /// Values about a run and its switching surface that are kept from one step to the next.
@@ -46,7 +46,7 @@ pub(super) struct Switching<R: Lanes> {
     pub(super) side: R,
     /// Value and rate of the switching function at the beginning of the step.
     pub(super) value: [R; 2],
-    /// True if the step is being repeated up to a crossing.
+    /// True if the integrator computes the step again, with a step size that ends at a crossing.
     pub(super) heading: R::Mask,
     /// Number of times that the size of the current step has been corrected.
     pub(super) corrections: R,
@@ -216,10 +216,11 @@ impl<R: Real> Cubic<R> {
         -(*slope) / (*b + side * (*b * *b - *a * *slope * 3.0).sqrt())
     }
 
-    /// Returns the zero of a cubic polynomial that begins on `side` and reaches the opposite side.
+    /// Returns the zero of a cubic polynomial that has the sign `side` at the beginning of the step, and
+    /// reaches the opposite sign.
     ///
-    /// Newton's iteration usually begins at the zero of a chord of the polynomial. If the polynomial departs
-    /// from zero at the beginning, Newton's iteration begins at the end of the step.
+    /// Newton's iteration usually begins at the zero of a chord of the polynomial. If the polynomial moves
+    /// away from zero at the beginning of the step, Newton's iteration begins at the end of the step.
     #[inline(always)]
     fn root(&self, side: R) -> R {
         let zero = side.lit(0.0);

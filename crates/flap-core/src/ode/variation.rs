@@ -5,7 +5,7 @@
 //!
 //! The slopes of the responses are forward differences of the right-hand side, with changes of about 1e-7 of
 //! the states' typical sizes. The errors of these slopes are about 1e-7 times the second derivative, plus
-//! rounding errors of about 1e-9. At a jump of the right-hand side, the responses jump, too, because a
+//! rounding errors of about 1e-9. At a jump of the right-hand side, the responses also jump, because a
 //! changed motion reaches the switching surface earlier or later.
 
 use super::{Ode, slope};
@@ -17,8 +17,8 @@ const SMALL: f64 = 1e-7;
 
 /// Typical size of a response, divided by the change of the initial state that causes the response.
 ///
-/// By default, the absolute tolerance is a hundredth of the relative tolerance. With this factor, the
-/// tolerance of a response near zero is the relative tolerance times the change of the initial state.
+/// By default, the absolute tolerance is a hundredth of the relative tolerance. With a typical size of 100,
+/// the tolerance of a response near zero is the relative tolerance times the change of the initial state.
 pub(super) const RESPONSE_SCALE: f64 = 100.0;
 
 /// A quantity of a motion, and the same quantity of the motion's responses to D changes of the initial state.

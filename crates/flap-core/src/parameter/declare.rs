@@ -48,8 +48,8 @@ pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Paramet
 /// A name in brackets before a field begins a group of parameters. After the kind of a field, you can set
 /// more fields of [`Parameter`](crate::parameter::Parameter), for example `default: 0.0`.
 ///
-/// If each line ends with a value, declare a function below the struct, for example `pub fn published() ->
-/// Params;`. This function returns the struct with the values.
+/// If each line ends with a value, after the parentheses with unit, symbol and kind, declare a function below
+/// the struct, for example `pub fn published() -> Params;`. This function returns the struct with the values.
 ///
 /// The macro adds `TABLE`, `from_values` and `to_values` to the struct. The rows of `TABLE` have the order of the
 /// fields.

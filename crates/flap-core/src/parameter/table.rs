@@ -24,15 +24,15 @@ pub struct Parameter<'a> {
     /// True if the published value was fitted to measurements of one vehicle. The fitted value need not be valid for
     /// another vehicle.
     pub is_fitted: bool,
-    /// Names of other parameters, each with an exponent. A change of one of these parameters usually changes
-    /// this parameter, too. For example, the inertia of a wing grows with the fourth power of the wing length
-    /// if shape and thickness stay the same. Models do not use these exponents, but `flap check` reports
-    /// parameters that should change together.
+    /// Names of the parameters with which this parameter usually grows, each with the exponent of the growth.
+    /// For example, the inertia of a wing grows with the fourth power of the wing length if shape and
+    /// thickness stay the same. Models do not use the exponents, but `flap check` reports parameters that
+    /// should change together.
     pub scales_with: &'static [(&'static str, f64)],
 }
 
 impl<'a> Parameter<'a> {
-    /// Returns a parameter that has no group and no default. `is_fitted` of this parameter is false.
+    /// Returns a parameter that has no group and no default, and whose published value was not fitted.
     pub const fn new(
         name: &'a str,
         unit: &'static str,

@@ -2,8 +2,8 @@
 //!
 //! A chirp is a drive whose frequency changes at a constant rate. The motion during a chirp is integrated one
 //! cycle of the drive after another. Each cycle of a chirp begins at the drive phase zero, with the final
-//! frequency of the previous cycle. The measures of a cycle are therefore computed as for a drive period. The
-//! phase stays small, so the rounding errors of the phase stay small too.
+//! frequency of the previous cycle. The measures of a cycle are therefore computed like the measures of a
+//! drive period. The phase stays small, so the rounding errors of the phase also stay small.
 
 use core::ops::ControlFlow;
 

@@ -12,11 +12,11 @@
 //! and the measure m are therefore smooth functions, and the change δ can be small.
 //!
 //! The two-sided difference dm/dp compares the orbit at p + δ with the orbit at p − δ. The difference dm/dp
-//! is therefore accurate even if m has a kink as a function of y₀ alone. An example of such a measure is the
-//! largest magnitude of a signal in a symmetric motion. If m has a kink as a function of p, the backward and
-//! the forward difference of m differ, and flap reports the kink. Before the comparison of these two
-//! differences, extrema that are equal within the integration error are made exactly equal
-//! ([`quarters`](crate::measure::quarters)).
+//! is therefore accurate even if m has a kink as a function of y₀ alone. An example of a measure with a kink
+//! is the largest magnitude of a signal in a symmetric motion. If m has a kink as a function of p, the
+//! backward and the forward difference of m differ, and flap reports the kink. Before the backward and the
+//! forward difference are compared, extrema that are equal within the integration error are made exactly
+//! equal ([`quarters`](crate::measure::quarters)).
 
 use nalgebra::{DMatrix, SMatrix, SVector};
 
@@ -39,9 +39,9 @@ use crate::parameter::{Kind, Parameter};
 /// is negligible, and the change is large compared with rounding errors.
 const SMALL: f64 = 1e-8;
 
-/// Factor on the tolerances of the integration that chooses the steps for derivatives. Near a resonance, the
-/// derivatives of the states over a period are much larger than the states. The errors of these derivatives
-/// are then larger too.
+/// Factor by which the tolerances are multiplied in the integration that chooses the steps for derivatives.
+/// Near a resonance, the derivatives of the states over a period are much larger than the states, and have
+/// larger errors.
 const TOLERANCE_FACTOR: f64 = 0.1;
 
 /// Value of `rtol` below which the errors of derivatives decrease more slowly than the errors of the
@@ -196,7 +196,8 @@ pub(super) fn gradient<M: Model<N>, R: Scalar, const N: usize>(
     if interrupted() { Err(Unfinished::Interrupted) } else { Ok(gradient) }
 }
 
-/// Returns the factor on the tolerances of the first integration of the period, whose steps are recorded.
+/// Returns the factor by which the tolerances are multiplied in the first integration of the period. The
+/// steps of the first integration are recorded.
 fn tolerance_factor(rtol: f64) -> f64 {
     TOLERANCE_FACTOR * (rtol / COARSE).min(1.0).sqrt()
 }
@@ -290,8 +291,8 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         starts
     }
 
-    /// Returns N + 1 starts of a period. The first start has the state `y`. In each of the others, one component
-    /// of `y` is increased by a small step.
+    /// Returns N + 1 starts of a period. The first start has the state `y`. In each of the N other starts,
+    /// one component of `y` is increased by a small step.
     fn around(&self, y: [f64; N]) -> Vec<Start<M::Constants<f64>, N>> {
         let mut starts = vec![Start { y, ..*self.start }; N + 1];
         for i in 0..N {
@@ -319,8 +320,8 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
         SVector::from_fn(|i, _| (other.y[i] - one.y[i]) / (size * self.start.scale[i]))
     }
 
-    /// Returns the step of Newton's method, in units of the states' typical sizes. `end` is the end of the
-    /// period from the current initial state.
+    /// Returns the step of Newton's method, in units of the states' typical sizes. `end` is the result of the
+    /// period that begins at the current initial state.
     fn step(&self, response: &SMatrix<f64, N, N>, end: &Repeated<(), N>) -> SVector<f64, N> {
         let (y, scale) = (&self.start.y, &self.start.scale);
         response * SVector::<f64, N>::from_fn(|i, _| (end.y[i] - y[i]) / scale[i])
@@ -330,7 +331,7 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
     /// that the search found.
     ///
     /// The second state is the sum of the state from the search, one Newton step, and an error. The error is
-    /// the largest distance by which an error of one tolerance per period moves an orbit.
+    /// the largest shift of the orbit that an integration error of one tolerance per period can cause.
     fn in_doubt(
         &self,
         response: &SMatrix<f64, N, N>,
@@ -503,11 +504,12 @@ impl Halves {
         if known { Ok((self.backward + self.forward) / (2.0 * size)) } else { Err(NoSlope::Kink) }
     }
 
-    /// Returns true if a measure has a kink. The measure must be computed from extrema that were made exactly
-    /// equal.
+    /// Returns true if a measure has a kink. The extrema in the measure must already be exactly equal if they
+    /// are equal within the integration error.
     ///
-    /// A measure has a kink if the backward and the forward derivative differ by more than `error`. These
-    /// derivatives are relative to the size `of` of the measure, per relative change.
+    /// A measure has a kink if the backward and the forward derivative differ by more than `error`. In this
+    /// comparison, a derivative is the change of the measure, divided by its size `of`, per relative change
+    /// of the quantity.
     pub(super) fn has_corner(self, of: f64, error: f64) -> bool {
         !self.agree((error * Change::SHARE + ROUNDING) * of)
     }

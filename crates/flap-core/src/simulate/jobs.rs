@@ -30,8 +30,8 @@ impl Point {
 pub trait Jobs {
     /// Returns the next point to compute, or `None` if no point is available at present.
     ///
-    /// If `idle` is true, no other point is being computed. The call may then wait for the next point, and
-    /// `None` ends the run.
+    /// If `idle` is true, no point is being computed. The call may then wait for the next point, and `None`
+    /// ends the run.
     fn next(&mut self, idle: bool) -> Option<Point>;
 
     /// Receives the row of the point with this [`Point::index`].

@@ -1,14 +1,16 @@
 //! Runs the searches of many points, and integrates the drive periods of these searches in SIMD lanes.
 //!
-//! A search is a future that requests a drive period and waits for its end. Each [kind](Kind) of period has
-//! its own ensemble, so that lanes integrate no unnecessary quantities.
+//! A search is a future that requests the integration of a drive period and waits for the result. Periods of
+//! different [kinds](Kind) are integrated by different ensembles, so that lanes integrate no unnecessary
+//! quantities.
 //!
-//! In most periods, only the states are integrated. When a lane of the ensemble for these periods becomes
-//! free, the ensemble starts the search of a new point. A search that requests another kind of period waits
-//! until many searches request this kind, or until no other work is left. Then a second ensemble integrates
-//! the periods of this kind. Meanwhile, the lanes of the first ensemble keep their state.
+//! In most periods, only the states are integrated. When a lane of the ensemble for states becomes free, the
+//! ensemble starts the search of a new point. If a search requests further quantities, the search waits until
+//! many searches request the same quantities, or until no other work is left. A second ensemble then
+//! integrates the periods of the searches that wait. Meanwhile, the lanes of the first ensemble keep their
+//! state.
 //!
-//! The search of a single point runs in the same way, in one scalar lane.
+//! The same code runs the search of a single point, with one scalar instead of SIMD lanes.
 
 use core::cell::{Cell, RefCell};
 use core::pin::Pin;
@@ -32,16 +34,16 @@ use crate::ode::ensemble::{
 };
 use crate::ode::{Interrupt, Start};
 
-/// If this number of searches wait for one kind of period, their periods are integrated together.
+/// If this number of searches wait for periods of one kind, the periods are integrated together.
 ///
-/// This number is much larger than the number of lanes, because some lanes are empty while the last periods
-/// end.
+/// The number of searches is much larger than the number of lanes. Lanes are therefore empty only for a small
+/// part of the time, while the last periods end.
 const BATCH: usize = 128;
 
-/// Largest number of points of other model variants that wait while the ensemble integrates points of one
-/// variant.
+/// Largest number of points that wait. While the ensemble integrates points of one model variant, points of
+/// different variants wait.
 ///
-/// This number is much larger than the number of lanes, so that lanes are seldom empty.
+/// The number of points is much larger than the number of lanes, so that lanes are seldom empty.
 const ASIDE: usize = 512;
 
 /// Kernel that runs the points of `jobs` on SIMD lanes, for a model with N states.
@@ -94,8 +96,8 @@ impl<M: Model<N>, const N: usize> Kernel for LanesKernel<'_, M, N> {
     }
 }
 
-/// Returns the next point of the variant `model`. Points of other variants are set aside, up to a limit: `waiting`
-/// contains these points, each with its variant.
+/// Returns the next point of the variant `model`. Points of different variants are added to `waiting`, up to
+/// a limit. `waiting` contains each point together with its variant.
 fn next_point<M: Model<N>, const N: usize>(
     model: &M,
     jobs: &RefCell<&mut dyn Jobs>,
@@ -117,7 +119,7 @@ fn next_point<M: Model<N>, const N: usize>(
     None
 }
 
-/// Returns the output of one search on scalars from `start`; `None` if it is interrupted.
+/// Returns the output of one search on scalars from `start`, or `None` if the search is interrupted.
 pub(super) fn run_alone<M, R, T, F, const N: usize>(
     model: &M,
     solver: &SolverSettings,
@@ -140,7 +142,8 @@ where
     output.take()
 }
 
-/// A search that is in progress. The future `search` stores the result of the search itself.
+/// A search that is in progress. The future `search` has no output, because it stores the result of the
+/// search.
 struct Running<'a, M: Model<N>, const N: usize> {
     exchange: Rc<Exchange<M, N>>,
     search: Pin<Box<dyn Future<Output = ()> + 'a>>,
@@ -158,8 +161,8 @@ impl<'a, M: Model<N>, const N: usize> Running<'a, M, N> {
 
 /// Source of searches.
 ///
-/// Returns the next search, or `None` if there is none at present. If the argument `idle` is true, the call may wait,
-/// and `None` is the end.
+/// Returns the next search, or `None` if no search is available at present. If the argument `idle` is true,
+/// the call may wait for a search, and `None` means that no search is left.
 type Source<'s, 'a, M, const N: usize> = &'s mut dyn FnMut(bool) -> Option<Running<'a, M, N>>;
 
 /// The driver of searches: it continues the searches, and integrates the periods that the searches request.
@@ -169,7 +172,8 @@ struct Driver<'a, 's, I, M: Model<N>, const N: usize> {
     solver: &'a SolverSettings,
     source: Source<'s, 'a, M, N>,
     interrupted: Interrupt<'s>,
-    /// Searches that wait for a period, by its kind. The first to wait is the first to continue.
+    /// For each kind of period, the searches that wait for a period. The search that has waited longest
+    /// continues first.
     waiting: [VecDeque<Running<'a, M, N>>; 4],
     lane_use: LaneUse,
 }
@@ -210,8 +214,8 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
     /// Returns a kind of period, except [`Kind::States`], for which at least the given number of searches
     /// wait.
     ///
-    /// The kinds of measured periods are last, so that many orbits have been found before measured periods
-    /// are integrated.
+    /// Kinds with sums over the signals are returned last, so that many orbits have been found before the
+    /// measures are integrated.
     fn other_that_waits(&self, searches: usize) -> Option<Kind> {
         let mut others = Kind::ALL.into_iter().skip(1);
         others.find(|&kind| self.waiting[kind as usize].len() >= searches)
@@ -226,7 +230,7 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
         }
     }
 
-    /// Integrates periods of one kind until no search waits for one.
+    /// Integrates periods of one kind until no search waits for a period of this kind.
     fn integrate(&mut self, kind: Kind) -> Occupancy {
         let (simd, model, tolerances) = (self.simd, self.model, self.solver.tolerances());
         let loads = self.solver.loads;
@@ -255,8 +259,9 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
         Periods { driver: self, kind, store, runs: [const { None }; MOST_LANES] }
     }
 
-    /// Continues a search to its next request. If the requested period has the given `kind`, the function
-    /// returns the search. Otherwise the search has ended, or it is added to the searches that wait.
+    /// Continues a search until the search requests a period or ends. If the requested period has the given
+    /// `kind`, the function returns the search. If the period has a different kind, the function adds the
+    /// search to the searches that wait.
     fn poll_search(
         &mut self,
         mut run: Running<'a, M, N>,
@@ -279,7 +284,7 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
         None
     }
 
-    /// Returns the next search that waits for a period of this kind, or that begins with one.
+    /// Returns the next search that waits for a period of this kind, or whose first period has this kind.
     fn next(&mut self, kind: Kind, idle: bool) -> Option<(Running<'a, M, N>, Restart<N>)> {
         loop {
             if let Some(run) = self.waiting[kind as usize].pop_front() {

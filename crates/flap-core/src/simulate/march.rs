@@ -79,15 +79,15 @@ impl<const N: usize> March<N> {
         self.period
     }
 
-    /// Returns true if a state is far smaller than its size in `assumed`, from which its tolerance was
-    /// computed. The result is true only after [`SIZED`] periods.
+    /// Returns true if a state is far smaller than its size in `assumed`. The tolerance of the state was
+    /// computed from this size. The result is true only after [`SIZED`] periods.
     pub(super) fn is_oversized(&self, assumed: &[f64; N]) -> bool {
         let size = self.motion_size();
         self.strobe.cycles() == SIZED && (0..N).any(|i| size[i] < 0.5 * assumed[i])
     }
 
-    /// Returns the size of each state for its absolute tolerance. This size is the typical size, or less if
-    /// the state stays small.
+    /// Returns the size of each state from which its absolute tolerance is computed. The result is the
+    /// typical size of the state, or less if the state stays small.
     pub(super) fn motion_size(&self) -> [f64; N] {
         let relative: [f64; N] = core::array::from_fn(|i| self.largest[i] / self.scale[i]);
         let overall = relative.iter().fold(0.0_f64, |size, &one| size.max(one));
@@ -138,8 +138,8 @@ impl<const N: usize> March<N> {
     }
 }
 
-/// Returns the factor on the absolute tolerances for an orbit through the state `y`. The factor is less than
-/// 1 if all components of `y` are small.
+/// Returns the factor by which the absolute tolerances are multiplied for an orbit through the state `y`. The
+/// factor is less than 1 if all components of `y` are small.
 pub(super) fn share_of_tolerance<const N: usize>(y: &[f64; N], scale: &[f64; N]) -> f64 {
     let overall = (0..N).fold(0.0_f64, |size, i| size.max(y[i].abs() / scale[i]));
     if overall == 0.0 { 1.0 } else { (overall / SMALL).min(1.0) }

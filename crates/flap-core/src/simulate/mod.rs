@@ -56,22 +56,22 @@ pub fn all() -> &'static [&'static dyn Simulator] {
     ALL
 }
 
-/// Returns the model of this crate with this name.
+/// Returns the model of this crate with the given name.
 pub fn by_name(name: &str) -> Option<&'static dyn Simulator> {
     find(all(), name)
 }
 
-/// Returns the preset of this crate with this name, and the model of the preset.
+/// Returns the preset of this crate with the given name, and the model of the preset.
 pub fn preset(name: &str) -> Option<(&'static dyn Simulator, &'static Preset)> {
     find_preset(all(), name)
 }
 
-/// Returns the model with this name among `models`.
+/// Returns the model with the given name among `models`.
 pub fn find(models: &[&'static dyn Simulator], name: &str) -> Option<&'static dyn Simulator> {
     models.iter().copied().find(|model| model.name() == name)
 }
 
-/// Returns the preset with this name among the presets of `models`, and the model of the preset.
+/// Returns the preset with the given name among the presets of `models`, and the model of the preset.
 pub fn find_preset(
     models: &[&'static dyn Simulator],
     name: &str,

@@ -35,7 +35,7 @@ struct Wing<M: Model<N>, const N: usize> {
 }
 
 /// Returns a wing with the given parameter values. The motion of the body in `values` must not be zero,
-/// because it determines which terms of body motion the equations contain.
+/// because the equations contain the terms of body motion only for a nonzero motion.
 pub(super) fn moving_wing<M: Model<N>, const N: usize>(
     model: &M,
     values: &[f64],

@@ -33,8 +33,8 @@ const NOTHING: f64 = 1e-3;
 /// extrema that lie between the ends of two steps.
 const LEAST: f64 = 5.0;
 
-/// If a motion crosses the switching surface more often than this in a period, the motion counts as sliding
-/// along the surface.
+/// If a motion crosses the switching surface more than this number of times in a period, the motion counts as
+/// sliding along the surface.
 ///
 /// A motion that does not slide crosses the switching surface twice in a period, or a few times more. If the
 /// tolerance is reduced, the error of a sliding motion decreases more slowly than the order of the

@@ -33,7 +33,8 @@ impl Kind {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Request<const N: usize> {
     pub(super) kind: Kind,
-    /// Start of the period. `None` requests the period that follows the last period of the same run.
+    /// Start of the period. `None` requests the next period of the run, from the state at the end of the last
+    /// period.
     pub(super) begin: Option<Restart<N>>,
 }
 
@@ -56,13 +57,14 @@ pub(super) struct PeriodEnd<T, const N: usize> {
 }
 
 impl<T, const N: usize> PeriodEnd<T, N> {
-    /// Returns the end of a period, with the state and the outcome only.
+    /// Returns the results of a period, of which only the state and the outcome are known.
     pub(super) fn new(y: [f64; N], outcome: Outcome) -> Self {
         PeriodEnd { y, largest: [f64::NAN; N], monodromy: [[f64::NAN; N]; N], sums: None, outcome }
     }
 }
 
-/// Exchange between a search, which stores its request, and the driver, which stores the end of the period.
+/// Exchange between a search and the driver. The search stores a request for a period, and the driver stores
+/// the results of the period.
 pub(super) struct Exchange<M: Model<N>, const N: usize> {
     /// Start of the point.
     pub(super) start: Start<M::Constants<f64>, N>,
@@ -101,12 +103,12 @@ impl<M: Model<N>, const N: usize> Exchange<M, N> {
         }
     }
 
-    /// Returns the request of the search that waits. The driver calls this function.
+    /// Returns the request for a period that the search has stored. The driver calls this function.
     pub(super) fn request(&self) -> Option<Request<N>> {
         self.request.get()
     }
 
-    /// Stores the end of the requested period. The driver calls this function.
+    /// Stores the results of the requested period. The driver calls this function.
     pub(super) fn finish(&self, end: PeriodEnd<SumsOf<M, N>, N>) {
         self.end.set(Some(end));
     }

@@ -22,14 +22,13 @@ pub struct Row {
     /// Length of the orbit in drive periods: 1, or 2 and more for a subharmonic orbit. The length is 0 if no
     /// orbit was found.
     pub period: u32,
-    /// Largest modulus of the orbit's Floquet multipliers.
+    /// Largest modulus of the orbit's Floquet multipliers: the factor per orbit by which a small change of
+    /// the state grows or decays after many orbits.
     ///
-    /// After many orbits, a small change of the state grows or decays by this factor per orbit.
-    ///
-    /// The error of this factor is larger than the errors of the measures, see `docs/models/numerics.md`. The
-    /// factor is NaN if no orbit was found, or if the wing is at rest and the factor is not clearly above 1.
-    /// In still air, the drag on a wing at rest has no linear part, so only rounding errors decide if the
-    /// factor is below 1.
+    /// The error of the modulus is larger than the errors of the measures, see `docs/models/numerics.md`. The
+    /// modulus is NaN if no orbit was found, or if the wing is at rest and the modulus is not clearly above
+    /// 1. In still air, the drag on a wing at rest has no linear part, so only rounding errors decide if the
+    /// modulus is below 1.
     pub floquet_max: f64,
     /// Estimate of the largest relative integration error of the model's [principal
     /// measures](crate::model::Principal), such as stroke, pitch, lift and power.
@@ -137,7 +136,7 @@ pub struct Column {
     pub unit: &'static str,
     /// Description in one line.
     pub doc: String,
-    /// Columns in the rows of a vehicle that correspond to this column of its wings.
+    /// Columns in the rows of a vehicle that are computed from this column in the rows of the wings.
     pub over_wings: OverWings,
 }
 

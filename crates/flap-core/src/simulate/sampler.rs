@@ -116,7 +116,7 @@ pub(super) fn columns<M: Model<N>, const N: usize>() -> Vec<String> {
     columns
 }
 
-/// Returns the descriptions of the columns of a trajectory, in their order.
+/// Returns the descriptions of the columns of a trajectory, in the order of the columns.
 pub(super) fn meanings<M: Model<N>, const N: usize>() -> Vec<String> {
     let mut meanings = vec!["time since the beginning of the motion".to_owned()];
     meanings.extend(M::STATES.iter().map(|name| format!("state {name} of the equations of motion")));

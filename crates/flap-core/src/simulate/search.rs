@@ -4,18 +4,18 @@
 //! [`Search::settle`] consists of these stages:
 //!
 //! 1. **Find.** flap integrates one drive period after another from rest, until Newton's iteration leads to a
-//!    nearby periodic orbit. For this stage, a loose tolerance is sufficient.
-//! 2. **Middle.** At a middle tolerance, flap finds the orbit and computes its measures. This orbit is much
-//!    closer to the orbit of the row than the orbit at the loose tolerance. The difference between its
-//!    measures and the measures of the row gives the error estimate of the row.
-//! 3. **Approach.** Chord steps at the tolerance of the row lead close to the orbit of the row. A period with
-//!    responses to changes of the initial state gives the monodromy matrix. A Newton step with this matrix
-//!    leads to the orbit. The period of this orbit is then integrated and measured, which also confirms that
-//!    the motion returns to its initial state.
+//!    nearby periodic orbit. A loose tolerance is sufficient to find this nearby orbit.
+//! 2. **Middle.** flap finds the orbit and computes its measures at a middle tolerance, between the loose
+//!    tolerance and the tolerance of the row. The error estimate of the row is computed from the difference
+//!    between the measures at the middle tolerance and the measures of the row.
+//! 3. **Approach.** Chord steps at the tolerance of the row lead close to the orbit of the row. The monodromy
+//!    matrix is computed from a period with responses to changes of the initial state. A Newton step with
+//!    this matrix leads to the orbit. The period of this orbit is then integrated and measured, which also
+//!    confirms that the motion returns to its initial state.
 //! 4. **Judge.** If a row is not accurate enough, the row is computed again with tighter tolerances, from the
 //!    orbit that was found.
 //!
-//! If the equations are [symmetric](Symmetry), the orbit is probably symmetric too. For a symmetric orbit,
+//! If the equations are [symmetric](Symmetry), the orbit is probably also symmetric. For a symmetric orbit,
 //! Newton's iteration, the chord steps and the measured periods integrate half a period, and the final state
 //! is mirrored. The march always integrates whole periods. If no symmetric orbit is found, the search
 //! continues with whole periods.
@@ -23,8 +23,9 @@
 //! If the search at the loose tolerance fails, the search begins again from rest, at the tolerance of the
 //! row.
 //!
-//! A search does not integrate: it requests drive periods and waits for them (see [`periods`](super::periods)). A
-//! driver integrates the periods of many points in lanes (see [`lanes`](super::lanes)).
+//! A search does not integrate: it requests the integration of drive periods and waits for the results (see
+//! [`periods`](super::periods)). A driver integrates the periods of many points in lanes (see
+//! [`lanes`](super::lanes)).
 
 use std::rc::Rc;
 
@@ -100,7 +101,8 @@ const MAX_ITERATIONS: u32 = 8;
 /// limit is in units of `settle_tol`.
 const JUMPS: f64 = 100.0;
 
-/// Factor on the tolerances of the next integration if the error is unknown or the orbit was not found.
+/// Factor by which the tolerances are multiplied for the next integration if the error is unknown or the
+/// orbit was not found.
 const FINER: f64 = 1.0 / 32.0;
 
 /// Smallest tolerances at which a point is integrated, relative to the requested tolerances.
@@ -136,9 +138,9 @@ struct Search<'a, M: Model<N>, const N: usize> {
     exchange: Rc<Exchange<M, N>>,
     /// Symmetry of the orbit, or `None` if the search does not assume that the orbit is symmetric.
     symmetry: Option<Symmetry<M::Signals, N>>,
-    /// Sizes of the states. The absolute tolerances are multiples of these sizes.
+    /// Sizes of the states, of which the absolute tolerances are multiples.
     size: [f64; N],
-    /// Factor on the requested tolerances.
+    /// Factor by which the requested tolerances are multiplied.
     tolerance_factor: f64,
     /// Largest residual of an orbit that counts as found.
     goal: f64,
@@ -160,8 +162,8 @@ struct Near<const N: usize> {
     march: Marched<N>,
     /// Monodromy matrix of the row's orbit, if known: computed at the row's tolerance, close enough to the orbit.
     monodromy: Option<Matrix<N>>,
-    /// Residual before the last Newton or chord step, at the tolerance of this step. Without such a step, the
-    /// change of the state over the last marched period.
+    /// Residual before the last Newton or chord step, at the tolerance of this step. If no step was made, the
+    /// field contains the change of the state over the last marched period.
     residual: f64,
     /// Length of the last step, if it was made with `monodromy`.
     step: f64,
@@ -171,7 +173,7 @@ struct Near<const N: usize> {
 }
 
 impl<const N: usize> Near<N> {
-    /// Returns a nearby orbit without its own monodromy matrix.
+    /// Returns a nearby orbit, at which the monodromy matrix has not been computed.
     fn without_matrix(orbit: Orbit<N>, march: Marched<N>, residual: f64) -> Near<N> {
         Near { orbit, march, monodromy: None, residual, step: f64::INFINITY, is_final: false }
     }
@@ -192,7 +194,7 @@ struct Measured<T, const N: usize> {
     /// Monodromy matrix of the orbit.
     monodromy: Option<Matrix<N>>,
     residual: f64,
-    /// End of the measured period.
+    /// Results of the measured period.
     end: PeriodEnd<T, N>,
 }
 
@@ -295,9 +297,9 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// Integrates drive periods until Newton's iteration finds the orbit that the motion approaches, and
     /// returns the row of this orbit.
     ///
-    /// `None` if an integration fails, if the largest number of periods is reached, or if the motion settles
-    /// on a subharmonic orbit. At the loose tolerance, `None` also if Newton's iteration leads to no orbit at
-    /// the tolerance of the row.
+    /// Returns `None` if an integration fails, if the largest number of periods is reached, or if the motion
+    /// settles on a subharmonic orbit. At the loose tolerance, also returns `None` if Newton's iteration
+    /// leads to no orbit at the tolerance of the row.
     async fn find(&mut self, at: Tolerance) -> Option<SearchResult<N>> {
         loop {
             self.march(at).await?;
@@ -338,8 +340,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Returns the orbit near the state of the march, which may have `settled`; `None` if Newton's iteration finds
-    /// none.
+    /// Returns the orbit near the state of the march, or `None` if Newton's iteration finds no orbit.
+    /// `settled` is true if the march has settled.
     async fn orbit_near_march(&mut self, at: Tolerance, settled: bool) -> Option<Near<N>> {
         let change = self.march.change(1);
         if at == Tolerance::Loose && change <= ARRIVED.max(self.goal) {
@@ -372,7 +374,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Resets the tolerances to the requested ones after a failed attempt.
+    /// Resets the tolerances to the requested tolerances after a failed attempt.
     fn reset_tolerances(&mut self) {
         self.tolerance_factor = self.exchange.start.tolerance_factor;
         self.goal = self.solver.settle_tol;
@@ -380,7 +382,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     }
 
     /// Returns the orbit on which the march has settled. Newton's iteration did not reach its target
-    /// residual, because the state of this orbit varies by more than this residual.
+    /// residual, because the state varies from period to period by more than the target residual.
     fn orbit_of_settled_march(&self, monodromy: Matrix<N>) -> Near<N> {
         let march = self.last_marched(self.goal);
         let orbit = Orbit { y: march.end, monodromy };
@@ -388,7 +390,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Near { monodromy: Some(monodromy), is_final: true, ..Near::without_matrix(orbit, march, residual) }
     }
 
-    /// Returns the last period of the march, with this error.
+    /// Returns the last period of the march, whose states have the given `error`.
     fn last_marched(&self, error: f64) -> Marched<N> {
         let (begin, end) = (*self.march.before(), *self.march.state());
         Marched { begin, end, error, maps: self.maps_per_period() }
@@ -396,7 +398,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Marches until the motion has settled or may be close to an orbit, or for the allowed number of periods.
     ///
-    /// `None` if a period cannot be integrated.
+    /// Returns `None` if a period cannot be integrated.
     async fn march(&mut self, at: Tolerance) -> Option<()> {
         let factor = self.factor(at);
         let mut begin = Some(self.restart_at(&self.march.state().clone(), factor));
@@ -483,9 +485,11 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Err(monodromy)
     }
 
-    /// Finds the orbit of the middle tolerance and returns its measured means; `None` if it is not found.
+    /// Finds the orbit at the middle tolerance and returns its measured means, or `None` if the orbit is not
+    /// found.
     ///
-    /// If the nearby orbit was not found at the row's tolerance, the result of the chord steps replaces it.
+    /// If `near` was not found at the row's tolerance, the result of the chord steps replaces the orbit in
+    /// `near`.
     async fn measure_middle(&mut self, near: &mut Near<N>) -> Option<Box<SumsOf<M, N>>> {
         let is_known = near.monodromy.is_some();
         // With the monodromy matrix of the row's orbit, one step suffices.
@@ -511,7 +515,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Makes chord steps at `factor` times the tolerances of the row, until the residual is at most `enough`.
     ///
-    /// Returns false if the residual stays larger.
+    /// Returns false if the residual stays larger than `enough`.
     async fn converge(&mut self, chord: &mut Chord<N>, factor: f64, enough: f64) -> bool {
         loop {
             let y = chord.orbit.y;
@@ -610,7 +614,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
 
     /// Applies the map whose fixed point is the orbit, at `factor` times the tolerances of the row.
     ///
-    /// The map covers a period, or half a period with a mirrored end.
+    /// The map integrates a whole period, or half a period and then mirrors the final state.
     async fn apply_map(
         &mut self,
         kind: Kind,
@@ -627,8 +631,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Some(end)
     }
 
-    /// Integrates a period of an orbit with sums over the signals, or half of it if the second half follows from the
-    /// first.
+    /// Integrates a period of an orbit with sums over the signals. If the sums over the second half follow
+    /// from the first half, the function integrates only the first half.
     async fn measure(&mut self, kind: Kind, y: &[f64; N], factor: f64) -> Option<PeriodEnd<SumsOf<M, N>, N>> {
         let Some(Symmetry { second_half: Some(second_half), .. }) = self.symmetry else {
             return self.period(kind, Some(self.restart_at(y, factor))).await;
@@ -672,7 +676,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Some(end)
     }
 
-    /// Begins at the initial state, with the requested tolerances.
+    /// Begins a march at the initial state of the point, with the requested tolerances.
     fn begin(&mut self, nearby: bool, max_cycles: u32) {
         let Start { y, scale, .. } = self.exchange.start;
         self.march = March::new(&y, &scale, self.solver, nearby, max_cycles);

@@ -26,8 +26,7 @@ pub struct SolverSettings {
     /// True to use Newton's iteration on the period map to find the orbit that a motion approaches.
     ///
     /// If false, flap integrates drive periods until the motion has settled, which leads to the same orbit
-    /// but needs more periods. In this case, Newton's iteration only improves the orbit of the settled
-    /// motion.
+    /// but needs more periods. If false, Newton's iteration only improves the orbit of the settled motion.
     pub newton: bool,
     /// True to begin the search for an orbit with larger tolerances than `rtol` and `atol`.
     pub progressive: bool,
@@ -158,7 +157,7 @@ impl Setting {
     }
 }
 
-/// Returns the kind of a setting whose value is more than zero and less than `below`.
+/// Returns the [`SettingKind`] of a setting whose value is more than zero and less than `below`.
 const fn number(
     below: f64,
     get: fn(&SolverSettings) -> f64,
@@ -167,7 +166,7 @@ const fn number(
     SettingKind::Number { below, get, set }
 }
 
-/// Allowed values of a setting, with the functions that read and write it.
+/// Allowed values of a setting, with the functions that read and change the setting.
 #[derive(Clone, Copy, Debug)]
 pub enum SettingKind {
     /// A number more than zero and less than `below`.

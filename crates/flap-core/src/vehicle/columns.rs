@@ -15,9 +15,9 @@ pub(super) struct Columns {
 
 /// Source of a column.
 enum Source {
-    /// Component of the force (mN) or the torque (uN·m), with its index.
+    /// Component of the force (mN) or the torque (uN·m) of the vehicle, with the index of the component.
     Wrench(usize),
-    /// Lift of the vehicle, divided by its weight.
+    /// Lift of the vehicle, divided by the weight of the vehicle.
     LiftToWeight,
     /// Efficiency in grams-force per watt, with the index of the wings' power column.
     Efficiency(usize),

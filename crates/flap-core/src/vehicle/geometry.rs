@@ -78,7 +78,7 @@ impl Wrench {
         }
     }
 
-    /// Returns the same force, with the torque about another `point` (m) of the body.
+    /// Returns this force, with the torque about the given `point` (m) of the body instead of the origin.
     pub(super) fn about(self, point: [f64; 3]) -> Wrench {
         Wrench { force: self.force, torque: self.torque - Vector3::from(point).cross(&self.force) }
     }

@@ -11,8 +11,8 @@ impl Gradients for Vehicle {
     }
 
     /// The vehicle's measures are linear functions of the wings' measures, except efficiency and lift over
-    /// weight. The derivatives of the vehicle's measures are therefore computed as finite differences. In
-    /// these differences, the wings' measures change in proportion to their derivatives.
+    /// weight. The derivatives of the vehicle's measures are therefore computed as finite differences. For
+    /// the finite differences, each measure of a wing is changed in proportion to its derivative.
     fn gradient(
         &self,
         run: &PointRun<'_>,

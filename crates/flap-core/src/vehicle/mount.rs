@@ -5,15 +5,15 @@ use crate::simulate::Simulator;
 /// Largest number of wings of a vehicle.
 pub const MOST_WINGS: usize = 16;
 
-/// First part of the names of parameters for differences between left and right wings.
+/// First part of the name of each parameter that describes a difference between left and right wings.
 pub const DIFFERENCE: &str = "difference";
 
 /// A wing of a vehicle: name and side.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mount {
-    /// Name of the wing, which is the first part of the names of its parameters and columns.
+    /// Name of the wing. The names of all parameters and columns of the wing begin with this name.
     pub name: String,
-    /// True if the wing is the mirror image, in the x-z plane, of a wing at its position.
+    /// True if the wing is the mirror image, in the x-z plane, of a wing at the given position.
     pub mirrored: bool,
 }
 

@@ -1,6 +1,6 @@
-//! Parameters of a vehicle. They are the parameters of the model for all wings, the parameters of the whole
-//! vehicle, and the parameters of single wings. A vehicle also has parameters for the differences between
-//! left and right wings.
+//! Parameters of a vehicle. A vehicle has the parameters of the model for all wings, parameters of the whole
+//! vehicle, and parameters of single wings. A vehicle also has parameters for the differences between left
+//! and right wings.
 
 use self_cell::self_cell;
 
@@ -229,7 +229,7 @@ impl Table {
     /// Returns the parameter values of the model for one wing.
     ///
     /// # Errors
-    /// Returns an error if a difference shifts a value out of its range. Returns an error, too, if a
+    /// Returns an error if a difference shifts a value out of its range. Also returns an error if a
     /// difference changes a parameter that is not set and is computed from other parameters.
     pub(super) fn of_wing(&self, values: &[f64], wing: usize) -> Result<Vec<f64>, Invalid> {
         let mut own_values = values[..self.model.len()].to_vec();
@@ -289,8 +289,8 @@ impl Table {
     }
 }
 
-/// For a parameter of one wing, returns the index of the parameter of all wings whose value is used if the parameter is
-/// not set. For other parameters, returns `None`.
+/// For a parameter of one wing, returns the index of the parameter that sets the value for all wings. The
+/// result is `None` if the parameter at `index` does not belong to one wing.
 pub fn of_all_wings(parameters: &[Parameter<'_>], index: usize) -> Option<usize> {
     let Kind::Following(_, follows) = parameters[index].kind else { return None };
     let wing = parameters[index].name.strip_suffix(follows)?;

@@ -40,8 +40,8 @@ impl Rows for Vehicle {
 }
 
 impl Simulator for Vehicle {
-    /// The presets are the presets of the model. The presets do not set the parameters of the vehicle, which have
-    /// their defaults.
+    /// The presets are the presets of the model. The presets do not set the parameters that the vehicle adds,
+    /// so these parameters have their defaults.
     fn description(&self) -> Description<'_> {
         Description {
             parameters: self.table.parameters(),
@@ -80,7 +80,7 @@ struct Wings {
 }
 
 impl Wings {
-    /// Returns the wings of a vehicle at a point. Equal wings have the same design.
+    /// Returns the wings of a vehicle at a point. Wings with equal parameter values share one design.
     fn new(vehicle: &Vehicle, values: Vec<f64>, begin: Option<&[f64]>) -> Result<Wings, Invalid> {
         let states = vehicle.states.len() / vehicle.mounts.len();
         let mut wings = Wings { values, designs: Vec::new(), of_wing: Vec::new() };
@@ -149,8 +149,8 @@ struct WingJobs<'a> {
     /// Points of wings that are not yet simulated. The index of a wing's point is composed of the number of the
     /// vehicle's point and the index of the design.
     waiting: VecDeque<Point>,
-    /// Points of the vehicle whose row is not finished. The key is the number of the point. The value contains
-    /// the wings of the point, and the index that `jobs` gave to the point.
+    /// Points of the vehicle whose row is not finished. The key of the map is the number of the point. The
+    /// value of the map contains the index that `jobs` gave to the point, and the wings of the point.
     begun: HashMap<u64, (u64, Wings)>,
     /// Number of the next point of the vehicle.
     next: u64,

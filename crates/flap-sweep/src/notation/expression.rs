@@ -65,8 +65,8 @@ impl Expression {
     /// Parses and checks the expression `text`. All names in `text` must be in `scope`.
     ///
     /// # Errors
-    /// Returns all mistakes up to the first mistake in the syntax. The spans of the mistakes are byte ranges
-    /// in `text`.
+    /// Returns all mistakes up to the first mistake in the syntax. The position of each mistake is a byte
+    /// range in `text`.
     pub fn parse(text: &str, scope: &dyn Scope) -> Result<Expression, Vec<ExpressionError>> {
         let (kind, operations, comparisons) = parse::parse(text, scope)?;
         Ok(Expression { kind, operations, comparisons })

@@ -196,7 +196,7 @@ const SHORTEST_PART: usize = 4;
 ///
 /// The function prefers the mean of a measure (`lift_mean_mn` for `lift`), then the first name that begins
 /// with `name`. If no name begins with `name`, the function chooses the first name that contains `name` as a
-/// word. The last choice is the name with the closest spelling.
+/// word. If no name contains `name` as a word, the function chooses the name with the closest spelling.
 pub fn nearest<'n>(name: &str, names: impl IntoIterator<Item = &'n str>) -> Option<&'n str> {
     // The time of a comparison is proportional to the product of both lengths.
     if name.len() > LONGEST_NAME {

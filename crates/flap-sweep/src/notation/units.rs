@@ -25,7 +25,7 @@ use unit::Unit;
 ///
 /// # Errors
 /// Returns an error if `text` has no number, if its unit is unknown, malformed or wrong, or if its value is
-/// not a finite float. The span of the error is a byte range in `text`.
+/// not a finite float. The field `span` of the error is the byte range of the mistake in `text`.
 pub fn parse_as(text: &str, si_unit: &str) -> Result<f64, UnitError> {
     let start = text.len() - text.trim_start().len();
     parse_trimmed(text.trim(), si_unit).map_err(|error| offset(error, start))

@@ -30,14 +30,14 @@ pub struct Way<'a> {
     pub bistable: &'a [bool],
 }
 
-/// Differences between the branches `up` and `down`: bistable bands, and jumps to the motion of the other
-/// branch.
+/// Differences between the branches `up` and `down`: bistable bands, and jumps from the motion of one branch
+/// to the motion of the other branch.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Comparison {
     /// Bistable bands: the first and the last parameter value of each interval in which the branches differ.
     pub bands: Vec<(f64, f64)>,
-    /// Indices of the rows after which a branch jumps to the motion of the other branch, first for `up`, then
-    /// for `down`.
+    /// For the branch `up`, then for the branch `down`: indices of the rows after which the branch jumps to
+    /// the motion of the other branch.
     ///
     /// In the row before a jump, the motions of the two branches differ. In the row after the jump, the
     /// motions are equal.

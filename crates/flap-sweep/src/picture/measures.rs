@@ -45,7 +45,7 @@ impl Role {
 /// Chooses the measure for a role, and returns its index in `columns`. If `columns` contains no usual measure
 /// of the role, the function chooses the first measure in `columns`.
 ///
-/// The function never chooses a column about the run, such as `cycles`, or a column in `taken`.
+/// The function never chooses a column about the computation, such as `cycles`, or a column in `taken`.
 pub fn usual<'n>(role: Role, columns: &[&'n str], taken: &[&'n str]) -> Option<usize> {
     let is_free = |column: &&str| !taken.contains(column) && !layout::is_fixed(column);
     let places = |wanted: &str| columns.iter().position(|column| *column == wanted && is_free(column));

@@ -24,7 +24,7 @@ impl Format {
         if cfg!(feature = "parquet") { ".csv, .csv.zst or .parquet" } else { ".csv or .csv.zst" };
 
     /// Returns the format that the ending of a file name determines. The ending may be in upper or lower
-    /// case. For a device or a pipe without such an ending, the format is CSV.
+    /// case. For a device or a pipe whose name has no known ending, the format is CSV.
     ///
     /// # Errors
     /// Returns an error if the file name has no known ending, or if this build of flap does not support the
@@ -40,8 +40,8 @@ impl Format {
         }
     }
 
-    /// Returns true if the format stores a table column by column, as Parquet does. Until all rows are
-    /// computed, flap stores the rows of such a table as compressed text in a separate file.
+    /// Returns true if the format stores a table column by column, as Parquet does. Until all rows of a
+    /// Parquet file are computed, flap stores the rows as compressed text in a separate file.
     pub fn is_columnar(self) -> bool {
         self == Format::Parquet
     }

@@ -1,5 +1,5 @@
-//! Creates the labels of columns: the name in words, the unit, and the information if larger or smaller
-//! values are better.
+//! Creates the labels of columns: the name in words, the unit, and the direction (larger or smaller values)
+//! in which the measure improves.
 
 use std::borrow::Cow;
 use std::f64::consts::PI;
@@ -16,12 +16,12 @@ pub struct Label {
     pub words: String,
     /// Unit for display, such as `N·m/rad` or `°`; empty for a column without a unit.
     pub unit: String,
-    /// Values of the measure that are better: larger or smaller values. `None` for a column that is neither a
-    /// benefit nor a cost.
+    /// Direction in which the measure improves: towards larger or smaller values. `None` for a column that is
+    /// neither a benefit nor a cost.
     pub better: Option<Direction>,
 }
 
-/// Values of a measure that are better: larger or smaller values.
+/// Direction in which a measure improves: towards larger or smaller values.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Larger values of the measure are better: a benefit, such as lift.
@@ -127,8 +127,8 @@ pub fn titled(words: &str, unit: &str) -> String {
     if unit.is_empty() { words.to_owned() } else { format!("{words} ({unit})") }
 }
 
-/// Words with which the names of benefits and costs begin, each with the values of the measure that are
-/// better. If two entries match a name, the longer entry comes first in the list.
+/// Words with which the names of benefits and costs begin, each with the direction in which the measure
+/// improves. If two entries match a name, the longer entry comes first in the list.
 const BETTER: [(&str, Direction); 10] = [
     ("lift", Direction::Larger),
     ("force_up", Direction::Larger),

@@ -147,8 +147,8 @@ impl<'p> Layout<'p> {
     }
 }
 
-/// Returns the columns of derivatives. In the list of a row's measures, the derivatives come after `before`
-/// other measures.
+/// Returns the columns of derivatives. `before` is the number of measures before the derivatives in the list
+/// of a row's measures.
 fn derivatives(plan: &Plan, before: usize) -> Vec<Entry<'_>> {
     let Some(gradient) = plan.gradient() else { return Vec::new() };
     let models = plan.rows().columns();
@@ -189,7 +189,8 @@ fn bistable() -> Column {
     Column::new(BISTABLE, "", CellKind::Flag, doc)
 }
 
-/// Converts the code of reasons for missing derivatives into words, such as `edge;zero`: see [`reasons_of`].
+/// Converts the number that encodes the reasons for missing derivatives into words, such as `edge;zero`: see
+/// [`reasons_of`].
 fn gap(code: f64) -> &'static str {
     static TEXTS: LazyLock<Vec<String>> = LazyLock::new(|| {
         let words = |code| reasons_of(f64::from(code)).map(NoSlope::name).collect::<Vec<_>>().join(";");
@@ -198,7 +199,8 @@ fn gap(code: f64) -> &'static str {
     TEXTS.iter().zip(0_u32..).find(|(_, other)| f64::from(*other) == code).map_or("", |(text, _)| text)
 }
 
-/// Returns the columns that rows of every model have: index, status, and columns about the run.
+/// Returns the columns that rows of every model have: index, status, and columns about the computation of the
+/// row.
 pub fn fixed_columns() -> Vec<Column> {
     let fixed = [&POINT, &CURVE, &STATUS].into_iter().chain(&RUN);
     fixed.map(|fixed| Column::new(fixed.name, "", fixed.kind, fixed.doc)).collect()

@@ -45,7 +45,8 @@ pub(super) struct Events {
 }
 
 impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> LaneRuns<R, O, V, N, D> {
-    /// Returns lanes that all contain the same run. The numbers in idle lanes are therefore finite.
+    /// Returns lanes that all contain the run of `start`. Idle lanes also integrate this run, so that their
+    /// numbers stay finite.
     #[inline(always)]
     pub(super) fn new(
         token: R::Token,
@@ -87,7 +88,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         self.restart(lane, start, observer);
     }
 
-    /// Restarts the run in a lane from another initial state, with the same constants.
+    /// Replaces the run in a lane by the run of `next`, without a change of the constants.
     pub(super) fn restart<C>(&mut self, lane: usize, next: &Start<C, N>, observer: &V) {
         self.totals.set(lane, &observer.nothing());
         self.rtol.set_lane(lane, self.tolerances.rtol * next.tolerance_factor);
@@ -105,8 +106,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         }
     }
 
-    /// Computes the first slope and the first step size in the lanes whose bits are set in `fresh`. All other
-    /// lanes do not change.
+    /// Computes the first slope and the first step size in the lanes whose bits are set in `fresh`. Lanes
+    /// whose bits are not set do not change.
     #[inline(always)]
     pub(super) fn begin(&mut self, ode: &O, fresh: u64) {
         let fresh = R::mask(self.token, fresh);
@@ -201,7 +202,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         Events { landed, failed: exhausted | stuck }
     }
 
-    /// Computes the first slope again in the lanes in which the run has reached the switching surface.
+    /// Computes the first slope of the next step again, in the lanes in which the run has reached the
+    /// switching surface.
     #[inline(always)]
     fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
         let [crossed, slopes] = cross(ode, &self.constants, self.t, self.switching.side, &self.begins());

@@ -15,7 +15,7 @@ pub type Restart<const N: usize> = Start<(), N>;
 pub struct SpanEnd<'a, T, const N: usize> {
     /// State.
     pub y: &'a [f64; N],
-    /// Sums that the observer has computed since the start of the run.
+    /// Sums over the steps since the start of the run, which the observer has computed.
     pub totals: &'a T,
     /// Responses of the state to a change of each component of the initial state by [`Start::change`]. The
     /// function [`run`](super::run) computes no responses, so the slice is empty.
@@ -28,8 +28,8 @@ pub struct SpanEnd<'a, T, const N: usize> {
 /// Next task of a run that stays in its lane.
 #[derive(Clone, Copy, Debug)]
 pub enum Next<const N: usize> {
-    /// The run continues with the next time span, from the state at the end of the last time span. For a
-    /// failed run, this task is not allowed.
+    /// The run continues with the next time span, from the state at the end of the last time span. Do not
+    /// return `Span` for a failed run.
     Span,
     /// The run is replaced by a run with a different initial state or different tolerances. The sums, and the
     /// numbers of steps and evaluations, begin at zero again.
@@ -42,8 +42,8 @@ pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
     /// Returns the start of the next run, which flap loads into the free lane `lane`. The result is `None` if
     /// no run is available at present.
     ///
-    /// If `idle` is true, no lane has a run. If no lane has a run, the function may wait for a run, and the
-    /// result `None` ends the ensemble.
+    /// If `idle` is true, no lane has a run. If no lane has a run, the function may wait until a run is
+    /// available, and the result `None` ends the ensemble.
     fn next(&mut self, lane: usize, idle: bool) -> Option<Start<&O::Constants<f64>, N>>;
 
     /// Receives the run in a lane at the end of a time span, or after a failure of the run. Returns the next
@@ -57,9 +57,9 @@ pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
     }
 }
 
-/// Observer that computes sums during the run in each lane.
+/// Observer that computes sums over the steps of each run, such as time integrals.
 pub trait Observer<O: Ode<N>, const N: usize> {
-    /// Sums that the observer computes in each lane.
+    /// Type of the sums that the observer computes in each lane.
     type Totals<R: Lanes>: PerLane<R, One = Self::Totals<f64>>;
 
     /// Returns the values of the sums before the first step.
@@ -75,7 +75,7 @@ pub trait Observer<O: Ode<N>, const N: usize> {
     );
 }
 
-/// Observer that computes no sums.
+/// Observer that computes no sums over the steps of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct Unobserved;
 

@@ -82,7 +82,7 @@ fn compared(a: f64, b: f64, holds: bool) -> f64 {
 pub(super) enum Operation {
     /// Pushes a constant number onto the stack.
     Push(f64),
-    /// Pushes the value with this index onto the stack.
+    /// Pushes the value with the given index onto the stack.
     Read(usize),
     /// Pushes a number that depends on a choice onto the stack. The variant contains the index of the choice,
     /// and one number for each option.
@@ -123,8 +123,8 @@ pub(super) struct Operator {
 }
 
 /// Binary operators. If no side of `and` or `or` alone determines the result, the result is the product of
-/// both sides. This product is NaN if a side is NaN. If no side is NaN, both sides are equal, and their
-/// product equals both sides.
+/// both sides. The product is NaN if a side is NaN. If no side is NaN, both sides are 1 or both sides are 0,
+/// and their product has the same value.
 static OPERATORS: [Operator; 13] = [
     logical("or", precedence::OR, |a, b| if a == 1.0 || b == 1.0 { 1.0 } else { a * b }),
     logical("and", precedence::AND, |a, b| if a == 0.0 || b == 0.0 { 0.0 } else { a * b }),

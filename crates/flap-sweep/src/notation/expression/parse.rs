@@ -92,7 +92,7 @@ impl<'a> Parser<'a> {
         matches!(self.next.0, Token::Sign(next) if next == sign)
     }
 
-    /// Consumes the next token, which must be the sign `sign`.
+    /// Consumes the next token, which must be the operator or parenthesis `sign`.
     fn take(&mut self, sign: &str, expected: &'static str) -> Result<Range<usize>, ExpressionError> {
         if self.is_next(sign) {
             return self.advance().map(|(_, span)| span);
@@ -289,8 +289,8 @@ impl<'a> Parser<'a> {
         ExpressionError { span: span.clone(), mistake, message: format!("unknown name `{name}`"), help }
     }
 
-    /// Parses the comparison of a choice with one of its options. An expression can use a choice only in such
-    /// a comparison.
+    /// Parses the comparison of a choice with one of its options. An expression can use a choice only in a
+    /// comparison with one of its options.
     fn choice(
         &mut self,
         name: &str,

@@ -38,7 +38,8 @@ pub trait Scope {
     /// Returns the meaning of `name`, or `None` if the name is unknown.
     fn meaning(&self, name: &str) -> Option<Meaning<'_>>;
 
-    /// Returns all known names. If a name is misspelled, the error message suggests one of these names.
+    /// Returns all known names. If a name in an expression is misspelled, the error message suggests a known
+    /// name.
     fn names(&self) -> Vec<String>;
 
     /// Returns true if a number may have a unit when it is compared with a name, as in

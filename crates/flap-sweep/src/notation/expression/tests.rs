@@ -2,8 +2,8 @@ use proptest::prelude::*;
 
 use super::*;
 
-/// In this scope, `T`, `preset.kappa`, `x` and `y` are numbers, `ok` is a condition, `arms` is a choice, and
-/// `width` has no value.
+/// Names for the expressions of the tests. `T`, `preset.kappa`, `x` and `y` are numbers, `ok` is a condition,
+/// `arms` is a choice, and `width` has no value.
 struct Names;
 
 const OPTIONS: &[&str] = &["printed", "axis"];
@@ -218,7 +218,7 @@ fn comparisons_have_their_places_in_the_text() {
     assert!(Expression::parse("x < 1 or y < 2", &Names).expect("an expression").comparisons().is_none());
 }
 
-/// A scope of columns with units: a frequency, a stiffness and a pure number.
+/// Names of columns with units, for use in expressions: a frequency, a stiffness and a pure number.
 struct Columns;
 
 impl Scope for Columns {

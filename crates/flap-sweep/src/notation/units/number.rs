@@ -201,7 +201,7 @@ impl Number<'_> {
     ///
     /// # Errors
     /// Returns an error if the result is too large for a float, or if the result is not zero but too small
-    /// for a float. The span of the error covers the whole number.
+    /// for a float. The field `span` of the error is the byte range of the whole number.
     pub(crate) fn shifted(self, shift: i32) -> Result<f64, UnitError> {
         let refused = |problem| Err(UnitError { span: 0..self.text.len(), problem });
         let text = format!("{}e{}", self.mantissa, self.exponent + i64::from(shift));

@@ -20,7 +20,7 @@ pub(super) struct Unit {
 impl Unit {
     const ONE: Unit = Unit { dimension: Dimension::base(0, 0, 0, 0), shift: 0, above: 1.0, below: 1.0 };
 
-    /// Returns this unit times a symbol with a prefix, which is raised to a power.
+    /// Returns the product of this unit and a power of a symbol with its prefix.
     fn times(mut self, symbol: &Symbol, prefix: i32, power: i32) -> Unit {
         self.dimension = self.dimension.times(symbol.dimension, power);
         self.shift = self.shift.saturating_add((symbol.shift + prefix).saturating_mul(power));
@@ -285,7 +285,7 @@ pub(super) struct Symbol {
     pub(super) factor: f64,
     /// True if the unit allows prefixes.
     prefixes: bool,
-    /// Usual units of the same quantity, for messages. The first unit is the SI unit.
+    /// Usual units of the quantity that this unit measures, for messages. The first unit is the SI unit.
     usual: &'static [&'static str],
 }
 
