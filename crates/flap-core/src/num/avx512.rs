@@ -22,8 +22,8 @@ use super::macros::{constants_on_the_right, functions_of_lanes, operator};
 use super::pair::Pair;
 use super::real::Real;
 
-/// Proof that the processor has the instructions AVX-512 F, DQ, BW, VL and CD, FMA and BMI2. The only way to
-/// create this value is a check of the processor.
+/// Proof that the processor has the instructions AVX-512 F, DQ, BW, VL and CD, FMA and BMI2. Code can create
+/// this value only after a check of the processor.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Avx512(());
 
@@ -62,7 +62,7 @@ pub(super) struct F64x8(__m512d);
 /// Calls an AVX-512 intrinsic in an `unsafe` block.
 ///
 /// SAFETY: every value of [`F64x8`] originates from [`F64x8::splat`]. This function requires an [`Avx512`],
-/// which exists only if the processor has the instructions.
+/// which exists only if the processor has the AVX-512 instructions.
 macro_rules! intrinsic {
     ($call:expr) => {
         unsafe { $call }

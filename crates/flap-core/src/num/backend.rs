@@ -24,7 +24,7 @@ pub enum Arithmetic {
 }
 
 impl Arithmetic {
-    /// Returns the name of the arithmetic class. The sidecar of a sweep contains this name.
+    /// Returns the name of the arithmetic class, which is also in the sidecar of a sweep.
     pub fn name(self) -> &'static str {
         match self {
             Arithmetic::Fused => "fma",
@@ -56,7 +56,7 @@ pub trait Kernel {
     fn run<S: Simd>(self, simd: S) -> Self::Output;
 }
 
-/// Proof that the processor has the instructions of a backend. The only way to create this value is a check
+/// Proof that the processor has the instructions of a backend. Code can create this value only after a check
 /// of the processor.
 #[derive(Clone, Copy, Debug)]
 enum Proof {
@@ -99,7 +99,7 @@ impl Backend {
     }
 
     /// Returns the name of the backend: `avx512`, `avx2`, `neon` or `scalar`. The sidecar of a sweep contains
-    /// this name.
+    /// the name of the backend.
     pub fn name(self) -> &'static str {
         self.name
     }

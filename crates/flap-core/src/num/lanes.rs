@@ -1,7 +1,7 @@
 //! Traits for access to single lanes, for access to the bits of numbers, and for sets of SIMD instructions.
 //!
 //! The integrator reads and changes single lanes, and the elementary functions read and change the bits of
-//! numbers. The trait [`Real`] does not contain these operations.
+//! numbers. The trait [`Real`] contains no operations on single lanes or bits.
 
 use super::real::Real;
 

@@ -43,7 +43,8 @@ macro_rules! constants_on_the_right {
     };
 }
 
-/// Implements methods of a wrapper type. Each method calls the method of the same name of the wrapped number.
+/// Implements methods of a wrapper type. Each method calls the method with the same name on the wrapped
+/// number.
 macro_rules! of_inner {
     ($Wrapper:ident: $($method:ident($($argument:ident),*)),*) => {
         $(
@@ -55,7 +56,7 @@ macro_rules! of_inner {
     };
 }
 
-/// Implements methods of a pair. Each method calls the method of the same name of the two numbers in the
+/// Implements methods of a pair. Each method calls the method with the same name on the two numbers in the
 /// pair.
 macro_rules! of_both {
     ($Pair:ident: $($method:ident($($argument:ident),*)),*) => {

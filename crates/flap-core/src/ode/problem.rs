@@ -7,8 +7,8 @@ use crate::num::{Lanes, PerLane, Real};
 ///
 /// `c` are constants, which may differ from run to run. `u` are inputs that depend on time alone. If two
 /// stages of a step have the same time, the inputs are evaluated only once. The innermost loop of the
-/// integration calls the functions for `u` and `f`. These two functions must not allocate memory or panic,
-/// and all functions that they call must be `#[inline(always)]`.
+/// integration calls the functions for `u` and `f`. The functions for `u` and `f` must not allocate memory or
+/// panic, and may only call functions that are `#[inline(always)]`.
 pub trait Ode<const N: usize>: Sync {
     /// Constants of a run.
     type Constants<R: Real>: PerLane<R, One = Self::Constants<f64>>;
@@ -69,10 +69,10 @@ pub trait Ode<const N: usize>: Sync {
     /// torque against the rate `y[1]`, return `[y[1], dy[1]]`.
     ///
     /// A motion that stays on the surface, such as a stroke that sticks due to friction, crosses the surface
-    /// again and again in short steps. The row of such a motion has the status
+    /// again and again in short steps. The row of a motion that stays on the surface has the status
     /// [`StepLimit`](crate::simulate::Status::StepLimit), or an infinite error estimate. A motion that begins
-    /// on the surface, at rest and with a drive that begins at zero, also needs too many short steps. Such a
-    /// motion needs an initial state with a small rate, instead of rest.
+    /// on the surface, at rest and with a drive that begins at zero, also needs too many short steps. Instead
+    /// of rest on the surface, choose an initial state with a small rate.
     #[inline(always)]
     fn switch<R: Real>(&self, c: &Self::Constants<R>, y: &[R; N], dy: &[R; N]) -> [R; 2] {
         let _ = (c, dy);
@@ -172,8 +172,8 @@ impl Tolerances {
 /// Number of evaluations of the right-hand side for the choice of the first step size.
 const START_RHS_EVALS: u64 = 2;
 
-/// Number of steps within a time span between two calls of an [`Interrupt`]. This number of steps takes a few
-/// milliseconds.
+/// Number of steps within a time span between two calls of an [`Interrupt`], which are a few milliseconds
+/// apart.
 pub(crate) const INTERRUPT_STEPS: u32 = 4096;
 
 /// Smallest step size, as a fraction of the time span. A run ends if its step size falls below this limit.

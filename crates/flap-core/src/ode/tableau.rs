@@ -1,8 +1,8 @@
 //! Coefficients of the Dormand-Prince method of order 5(4).
 //!
 //! The sources are Dormand and Prince (1980), and Table II.5.2 of Hairer, Nørsett and Wanner, *Solving
-//! Ordinary Differential Equations I*, 2nd ed. Section II.6 of this book and the code DOPRI5 contain the
-//! coefficients of the dense output.
+//! Ordinary Differential Equations I*, 2nd ed. The coefficients of the dense output are in section II.6 of
+//! the book by Hairer, Nørsett and Wanner, and in the code DOPRI5.
 
 /// Number of stages. The last stage of a step is also the first stage of the next step.
 pub const STAGES: usize = 7;

@@ -127,8 +127,8 @@ impl Range {
             }
     }
 
-    /// Returns the words that describe the range in messages: `"more than zero"`, `"between 0 and 2"`, `"a whole number
-    /// from 1 to 64"`.
+    /// Returns the words that describe the range in messages, such as `"more than zero"`, `"between 0 and 2"`
+    /// or `"a whole number from 1 to 64"`.
     pub fn describe(self) -> String {
         match self {
             Range::Any => "any number".to_owned(),

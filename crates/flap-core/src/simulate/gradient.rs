@@ -452,8 +452,8 @@ impl<M: Model<N>, const N: usize> GradientKernel<'_, M, N> {
     }
 }
 
-/// Returns a typical size of the values of each column. The rounding error of a column is a fraction of this
-/// size.
+/// Returns a typical size of the values of each column. The rounding error of a column is a fraction of the
+/// typical size.
 ///
 /// The rounding error of a small mean depends on the size of the signal. The rounding error of a component of
 /// a force or moment depends on the largest component.
@@ -507,9 +507,9 @@ impl Halves {
     /// Returns true if a measure has a kink. The extrema in the measure must already be exactly equal if they
     /// are equal within the integration error.
     ///
-    /// A measure has a kink if the backward and the forward derivative differ by more than `error`. In this
-    /// comparison, a derivative is the change of the measure, divided by its size `of`, per relative change
-    /// of the quantity.
+    /// A measure has a kink if the backward and the forward derivative differ by more than `error`. Both
+    /// derivatives are dimensionless: the change of the measure relative to its size `of`, per relative
+    /// change of the parameters.
     pub(super) fn has_corner(self, of: f64, error: f64) -> bool {
         !self.agree((error * Change::SHARE + ROUNDING) * of)
     }

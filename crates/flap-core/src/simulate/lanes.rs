@@ -5,8 +5,8 @@
 //! quantities.
 //!
 //! In most periods, only the states are integrated. When a lane of the ensemble for states becomes free, the
-//! ensemble starts the search of a new point. If a search requests further quantities, the search waits until
-//! many searches request the same quantities, or until no other work is left. A second ensemble then
+//! ensemble starts the search of a new point. If a search requests more than the states, the search waits
+//! until many searches request the same quantities, or until no lane has work. A second ensemble then
 //! integrates the periods of the searches that wait. Meanwhile, the lanes of the first ensemble keep their
 //! state.
 //!
@@ -36,14 +36,14 @@ use crate::ode::{Interrupt, Start};
 
 /// If this number of searches wait for periods of one kind, the periods are integrated together.
 ///
-/// The number of searches is much larger than the number of lanes. Lanes are therefore empty only for a small
-/// part of the time, while the last periods end.
+/// With far more searches than lanes, lanes are empty only for a small part of the time, while the last
+/// periods end.
 const BATCH: usize = 128;
 
 /// Largest number of points that wait. While the ensemble integrates points of one model variant, points of
 /// different variants wait.
 ///
-/// The number of points is much larger than the number of lanes, so that lanes are seldom empty.
+/// With far more points than lanes, lanes are seldom empty.
 const ASIDE: usize = 512;
 
 /// Kernel that runs the points of `jobs` on SIMD lanes, for a model with N states.

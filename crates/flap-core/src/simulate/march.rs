@@ -66,7 +66,8 @@ impl<const N: usize> March<N> {
         }
     }
 
-    /// Adds the state at the end of a period, and the largest magnitude that each state has reached.
+    /// Adds to the march the state at the end of a period, and the largest magnitude that each state has
+    /// reached.
     pub(super) fn period_end(&mut self, y: &[f64; N], largest: &[f64; N]) {
         for i in 0..N {
             self.largest[i] = self.largest[i].max(largest[i]);

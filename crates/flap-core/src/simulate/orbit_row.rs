@@ -3,7 +3,8 @@
 //! flap computes the measures of an orbit at two tolerances: the tolerance of the row, and a middle
 //! tolerance, which is 64 times as large. The error of the integration is about proportional to the
 //! tolerance. The expected error of the row is therefore about 1/64 of the difference between the two
-//! results. This difference may be small by chance, so the error estimate is 0.6 times the difference.
+//! results. The difference between the two results may be small by chance, so the error estimate is 0.6 times
+//! the difference.
 
 use super::row::{Row, Status};
 use super::settings::SolverSettings;
@@ -25,12 +26,12 @@ const REST_TIMES: [f64; 4] = [0.0, 0.137, 0.412, 0.789];
 /// the row's tolerance.
 const SHARE: f64 = 0.6;
 
-/// A measure is negligible if it is smaller than this fraction of its signal's size. The error of a
-/// negligible measure is relative to this fraction of the signal's size.
+/// A measure is negligible if it is smaller than this fraction of its signal's size. The relative error of a
+/// negligible measure is its error divided by the fraction of the signal's size.
 const NOTHING: f64 = 1e-3;
 
-/// Smallest error estimate of a row, in units of the relative tolerance. This minimum covers the error of
-/// extrema that lie between the ends of two steps.
+/// Smallest error estimate of a row, in units of the relative tolerance. The smallest error estimate covers
+/// the error of extrema that lie between the ends of two steps.
 const LEAST: f64 = 5.0;
 
 /// If a motion crosses the switching surface more than this number of times in a period, the motion counts as
@@ -151,8 +152,8 @@ fn difference<M: Model<N>, const N: usize>(
     largest
 }
 
-/// Returns true if a signal oscillates whose first harmonic is a principal measure. The motion is then not at
-/// rest, and no check of the states is needed.
+/// Returns true if a signal oscillates whose first harmonic is a principal measure. If a signal oscillates,
+/// the motion is not at rest, and no check of the states is needed.
 fn swings<M: Model<N>, const N: usize>(cycle: &SignalsOf<M::Signals, SignalCycle>) -> bool {
     M::Signals::each(cycle).any(|(signal, cycle)| {
         signal.principal == Some(Principal::First) && cycle.max - cycle.min > SWINGS * cycle.size()

@@ -83,7 +83,7 @@ pub struct Period {
     pub responses: Vec<Vec<f64>>,
     /// Typical size of each component of the state.
     pub scale: Vec<f64>,
-    /// Largest modulus of the Floquet multipliers. This number is meaningful only if the final state equals
+    /// Largest modulus of the Floquet multipliers. The modulus is meaningful only if the final state equals
     /// the initial state.
     pub floquet_max: f64,
     /// One value for each column of the model. The values are meaningful only if the final state equals the

@@ -46,7 +46,7 @@ pub struct Row {
 }
 
 impl Row {
-    /// Returns a row that contains only a status. All further values of this row are missing or zero.
+    /// Returns a row that contains only a status. All values except the status are missing or zero.
     pub(super) fn empty(status: Status) -> Row {
         Row {
             status,

@@ -9,9 +9,9 @@
 //!    tolerance and the tolerance of the row. The error estimate of the row is computed from the difference
 //!    between the measures at the middle tolerance and the measures of the row.
 //! 3. **Approach.** Chord steps at the tolerance of the row lead close to the orbit of the row. The monodromy
-//!    matrix is computed from a period with responses to changes of the initial state. A Newton step with
-//!    this matrix leads to the orbit. The period of this orbit is then integrated and measured, which also
-//!    confirms that the motion returns to its initial state.
+//!    matrix is computed from a period with responses to changes of the initial state. A Newton step with the
+//!    monodromy matrix leads to the orbit of the row. The period of this orbit is then integrated and
+//!    measured, which also confirms that the motion returns to its initial state.
 //! 4. **Judge.** If a row is not accurate enough, the row is computed again with tighter tolerances, from the
 //!    orbit that was found.
 //!
@@ -43,7 +43,8 @@ use crate::ode::ensemble::Restart;
 use crate::ode::{Ending, Outcome, Start, input, slope};
 
 /// Relative tolerance at the beginning of a search, if the relative tolerance of the row is at most
-/// [`LOOSE_FOR`]. The search of other rows begins at the tolerance of the row.
+/// [`LOOSE_FOR`]. If the relative tolerance of the row is larger than [`LOOSE_FOR`], the search begins at the
+/// tolerance of the row.
 const LOOSE_RTOL: f64 = 3e-4;
 
 /// Largest relative tolerance of a row whose search begins at [`LOOSE_RTOL`]. For larger tolerances of the
@@ -158,7 +159,7 @@ struct Search<'a, M: Model<N>, const N: usize> {
 #[derive(Clone, Copy)]
 struct Near<const N: usize> {
     orbit: Orbit<N>,
-    /// A part of the march. The search checks that this part of the march approaches the orbit.
+    /// A part of the march, from which the search checks that the march approaches the orbit.
     march: Marched<N>,
     /// Monodromy matrix of the row's orbit, if known: computed at the row's tolerance, close enough to the orbit.
     monodromy: Option<Matrix<N>>,
@@ -253,7 +254,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Returns the row of the orbit near a state. `None` if no orbit is found near this state at the
+    /// Returns the row of the orbit near a state. Returns `None` if no orbit is found near the state at the
     /// tolerance of the row.
     async fn settle_near(&mut self, mut near: Near<N>) -> Option<SearchResult<N>> {
         let mut last: Option<SearchResult<N>> = None;

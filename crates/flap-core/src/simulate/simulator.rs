@@ -144,8 +144,8 @@ pub trait Gradients: Sync {
     /// that begins at `state`.
     ///
     /// `state` is for example [`Row::state`] of a periodic row. For each change, flap integrates three
-    /// periods. In addition, flap integrates N + 3 periods, where N is the number of states. Each of these
-    /// periods has about 1.6 times as many steps as a period at the solver's tolerances.
+    /// periods. In addition, flap integrates N + 3 periods, where N is the number of states. Each integrated
+    /// period has about 1.6 times as many steps as a period at the solver's tolerances.
     ///
     /// # Errors
     /// See [`Motions`].
@@ -203,7 +203,7 @@ pub trait Motions: Gradients {
     /// shoulder.
     ///
     /// One or more of the velocities and rates of the body in `values` must be nonzero, to select the
-    /// equations with body motion. The size of these velocities and rates has no effect.
+    /// equations with body motion. The sizes of the velocities and rates of the body have no effect.
     ///
     /// # Errors
     /// An error if the combination of values is impossible.

@@ -78,7 +78,7 @@ pub(super) fn row<M: Model<N>, R: Scalar, const N: usize>(
     settled.map_or_else(|| Row::empty(Status::Unsettled), |settled| settled.row)
 }
 
-/// Returns the motion of a point that begins in the state `from` or at rest.
+/// Returns the motion of a point. The motion begins in the state `from` or at rest.
 pub(super) fn trajectory<M: Model<N>, R: Scalar, const N: usize>(
     model: &M,
     run: &PointRun<'_>,

@@ -35,7 +35,8 @@ pub enum VehicleError {
     /// Two wings have the same name.
     #[error("two wings are called `{0}`")]
     SameName(String),
-    /// Two parameters have the same name. The parameters belong to two wings, or to a wing and the model.
+    /// Two parameters have the same name: a parameter of one wing, and a parameter of a second wing or of the
+    /// model.
     #[error("a wing cannot be called `{wing}`: another parameter already has the name `{parameter}`")]
     Clash {
         /// Name of the wing.

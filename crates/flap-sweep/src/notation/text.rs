@@ -73,7 +73,7 @@ pub fn count(number: u64, thing: &str) -> String {
 const MOST_NAMES: usize = 20;
 
 /// Returns a list of names for a message, such as `a, b and 3 more columns`. The list contains at most 20
-/// names, and `thing` is the noun for the further names.
+/// names. If names are left out, the message contains their number and the noun `thing`.
 pub fn listed<'n>(names: impl IntoIterator<Item = &'n str>, thing: &str) -> String {
     let mut names = names.into_iter();
     let first: Vec<&str> = names.by_ref().take(MOST_NAMES).collect();

@@ -5,8 +5,8 @@ use crate::table::layout;
 /// Role of a measure in a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// Measure on the vertical axis in pictures of a response or a hysteresis loop. The horizontal axis of
-    /// these pictures is a parameter.
+    /// Measure on the vertical axis in pictures of a response or a hysteresis loop. The horizontal axis shows
+    /// a parameter.
     Response,
     /// Benefit of a design, for example lift. Pictures show the benefit as the colour of a map, the y-axis of a scatter
     /// plot, or the measure of a histogram or tornado chart.

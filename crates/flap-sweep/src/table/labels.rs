@@ -54,8 +54,8 @@ pub fn with_unit(column: &str, unit: &str) -> Label {
 /// Returns the unit of a column, or an empty text for a column without a unit.
 ///
 /// If one of the `models` has a parameter, a measure or a derivative with this name, the function returns the
-/// unit that the model states. Otherwise the ending of the name determines the unit: for example, `_mn` means
-/// mN.
+/// unit that the model states. For all other names, the ending of the name determines the unit: for example,
+/// `_mn` means mN.
 pub fn unit_of(column: &str, models: &[&'static dyn Simulator]) -> Cow<'static, str> {
     let of_model = |name| unit_in_models(name, models);
     let derivative = derivative::parts(column).and_then(|(of, by, per)| {

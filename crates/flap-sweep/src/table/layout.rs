@@ -372,7 +372,7 @@ pub(crate) fn is_fixed(name: &str) -> bool {
     name == BISTABLE || [&POINT, &STATUS].into_iter().chain(&RUN).any(|column| column.name == name)
 }
 
-/// Columns about the computation of a row, such as `cycles`. These columns come after the measures.
+/// Columns about the computation of a row, such as `cycles`, which come after the measures.
 pub(crate) const RUN: [Fixed; 7] = [
     Fixed {
         name: "cycles",

@@ -88,7 +88,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         self.restart(lane, start, observer);
     }
 
-    /// Replaces the run in a lane by the run of `next`, without a change of the constants.
+    /// Replaces the run in a lane by a run that begins at `next` and has the same constants as the replaced
+    /// run.
     pub(super) fn restart<C>(&mut self, lane: usize, next: &Start<C, N>, observer: &V) {
         self.totals.set(lane, &observer.nothing());
         self.rtol.set_lane(lane, self.tolerances.rtol * next.tolerance_factor);

@@ -62,7 +62,7 @@ pub trait Observer<O: Ode<N>, const N: usize> {
     /// Type of the sums that the observer computes in each lane.
     type Totals<R: Lanes>: PerLane<R, One = Self::Totals<f64>>;
 
-    /// Returns the values of the sums before the first step.
+    /// Returns the initial values of the sums, before the first step of a run.
     fn nothing(&self) -> Self::Totals<f64>;
 
     /// Adds a step to the sums, in the lanes in which the step was `accepted`. `c` contains the constants of the runs.

@@ -51,8 +51,8 @@ fn read(values: &[f64], place: usize) -> f64 {
     values.get(place).copied().unwrap_or(f64::NAN)
 }
 
-/// Returns the number in `numbers` that belongs to the option with the index `option`. Returns NaN if there
-/// is no such option.
+/// Returns the number in `numbers` that belongs to the option with the index `option`. Returns NaN if no
+/// option has the index `option`.
 pub(crate) fn of_choice(numbers: &[f64], option: f64) -> f64 {
     let found = numbers.iter().enumerate().find(|(place, _)| *place as f64 == option);
     found.map_or(f64::NAN, |(_, number)| *number)
@@ -124,7 +124,7 @@ pub(super) struct Operator {
 
 /// Binary operators. If no side of `and` or `or` alone determines the result, the result is the product of
 /// both sides. The product is NaN if a side is NaN. If no side is NaN, both sides are 1 or both sides are 0,
-/// and their product has the same value.
+/// so the product is also 1 or 0.
 static OPERATORS: [Operator; 13] = [
     logical("or", precedence::OR, |a, b| if a == 1.0 || b == 1.0 { 1.0 } else { a * b }),
     logical("and", precedence::AND, |a, b| if a == 0.0 || b == 0.0 { 0.0 } else { a * b }),

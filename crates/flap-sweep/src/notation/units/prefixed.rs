@@ -15,8 +15,8 @@ pub fn prefixed(value: f64, si_unit: &str) -> String {
     format!("{} {unit}", digits(value)).trim_end().to_owned()
 }
 
-/// Returns the text of `value` with all digits, and with the same prefix as in [`prefixed`]. From this text,
-/// [`parse_as`] reads exactly the same float.
+/// Returns the text of `value` with all digits, and with the same prefix as in [`prefixed`]. From the
+/// returned text, [`parse_as`] reads exactly the float `value`.
 pub fn exact(value: f64, si_unit: &str) -> String {
     let (unit, tens) = unit_for(value, si_unit);
     let scientific = format!("{value:e}");
