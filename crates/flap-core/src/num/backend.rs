@@ -98,8 +98,8 @@ impl Backend {
         Self::available().into_iter().find(|backend| backend.name() == name)
     }
 
-    /// Returns the name of the backend: `avx512`, `avx2`, `neon` or `scalar`. The sidecar of a sweep contains
-    /// the name of the backend.
+    /// Returns the name of the backend, which is `avx512`, `avx2`, `neon` or `scalar`. The sidecar of a sweep
+    /// contains the name of the backend.
     pub fn name(self) -> &'static str {
         self.name
     }

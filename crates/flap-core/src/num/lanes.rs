@@ -82,8 +82,8 @@ pub trait Lanes: Real + Bits {
     }
 }
 
-/// A value that proves that the processor has a set of SIMD instructions. The type
-/// [`OneLane`](super::OneLane) implements this trait for computations on scalars.
+/// A value that proves that the processor has a set of SIMD instructions. For computations on scalars, use
+/// the type [`OneLane`](super::OneLane).
 pub trait Simd: Copy {
     /// Number type that the instructions compute with: two registers of `f64`, or one scalar.
     type Vector: Lanes<Token = Self>;

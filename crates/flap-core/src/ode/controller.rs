@@ -8,7 +8,7 @@
 //! The base-2 logarithm of the factor between two step sizes is rounded to a multiple of 1/8. Two motions
 //! that hardly differ are therefore integrated with exactly the same steps, and their final states also
 //! hardly differ. Without the rounding of step sizes, the state at the end of a period would vary by the
-//! integration error. A motion would then not repeat within a tight settling tolerance.
+//! integration error. With this variation, a motion would not repeat within a tight settling tolerance.
 
 use crate::num::Lanes;
 
@@ -18,8 +18,8 @@ const ALPHA: f64 = 0.2 - 0.75 * BETA;
 /// Base-2 logarithms of the smallest and the largest factor between two step sizes, 0.21 and 9.5.
 const OCTAVES_MIN: f64 = -18.0 / 8.0;
 const OCTAVES_MAX: f64 = 26.0 / 8.0;
-/// Base-2 logarithm of 10^-8, the smallest squared error that the controller stores. A smaller squared error
-/// is stored as 10^-8.
+/// Base-2 logarithm of 10^-8, the smallest squared error that the controller stores. Squared errors below
+/// 10^-8 are stored as 10^-8.
 const LOG2_ERROR_MIN: f64 = -26.575_424_759_098_897;
 
 /// Values that the controller keeps from one step to the next.

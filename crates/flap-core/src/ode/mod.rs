@@ -14,8 +14,8 @@
 //!
 //! The integration of a run is divided into *time spans*, usually drive periods. Time is 0 at the beginning
 //! of each time span, and the last step ends exactly at the end of the time span. At the end of a time span,
-//! the caller checks the state. The caller then stops the run or starts the next time span. The time
-//! therefore stays small in long runs. The inputs must be the same in each time span.
+//! the caller checks the state, and stops the run or starts the next time span. The time therefore stays a
+//! small number in long runs, but the inputs must be the same in each time span.
 //!
 //! To integrate your own equations, implement [`Ode`]. `examples/jafferis_fig2_3` integrates three systems
 //! until their motions have settled, and `examples/own_equations` runs thousands of points in lanes.

@@ -33,19 +33,18 @@ pub trait Ode<const N: usize>: Sync {
     fn rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N];
 
     /// True if [`Ode::is_plain`] returns true for some variants of the equations. The compiler then compiles
-    /// the steps of plain variants separately from the steps of all other variants.
+    /// the steps with [`Ode::plain_rhs`] separately from the steps with [`Ode::rhs`].
     const HAS_PLAIN: bool = false;
 
-    /// Returns true if this variant of the equations is plain: [`Ode::plain_rhs`] computes the derivative ẏ
-    /// of a plain variant.
+    /// Returns true if [`Ode::plain_rhs`] computes the derivative ẏ of this variant of the equations.
     #[inline(always)]
     fn is_plain(&self) -> bool {
         false
     }
 
-    /// Returns the derivative ẏ of a plain variant, equal to the result of [`Ode::rhs`] to the last bit. The
-    /// function contains only the code of plain variants, because the code of all other variants would slow
-    /// down the steps.
+    /// Returns the derivative ẏ of a variant for which [`Ode::is_plain`] is true, equal to the result of
+    /// [`Ode::rhs`] to the last bit. The function contains no code that only other variants need, because
+    /// more code would slow down the steps.
     #[inline(always)]
     fn plain_rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N] {
         self.rhs(c, u, side, y)

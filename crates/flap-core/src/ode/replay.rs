@@ -3,9 +3,9 @@
 //!
 //! If a step-size controller chooses the steps, the final state jumps by about the tolerance when a constant
 //! changes. If the steps are fixed fractions of the time span, the final state is a smooth function of the
-//! constants. Finite differences of the final state are then accurate derivatives at any tolerance. If a
-//! recorded step ends on the switching surface, the repeated step also ends on the surface. A repeated step
-//! may reach the surface earlier or later than the recorded step.
+//! constants. With such fixed steps, finite differences of the final state are accurate derivatives at any
+//! tolerance. If a recorded step ends on the switching surface, the repeated step also ends on the surface. A
+//! repeated step may reach the surface earlier or later than the recorded step.
 
 use core::ops::ControlFlow;
 
@@ -34,9 +34,8 @@ pub(crate) struct Repeated<T, const N: usize> {
     pub(crate) y: [f64; N],
     /// Totals of the observer.
     pub(crate) totals: T,
-    /// True if the run and the recorded run reached the switching surface at almost equal times. The
-    /// difference of the two times must be a small fraction of a mean step. If `meets` is false, the result
-    /// is unusable.
+    /// True if the run and the recorded run reached the switching surface at almost equal times. The times
+    /// may differ by a small fraction of a mean step. If `meets` is false, the result is unusable.
     pub(crate) meets: bool,
 }
 

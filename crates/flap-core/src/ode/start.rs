@@ -74,10 +74,10 @@ fn weighted_norm<R: Lanes, const N: usize, const D: usize>(
 /// Returns the first step size of the next time span. `last` is the first step size of the last time span,
 /// and `proposed` is the step size that the controller proposes.
 ///
-/// All time spans of a periodic motion should be integrated with the same steps. The states at the ends of
-/// the time spans then converge if the motion converges. If the steps differed, the states at the ends of the
-/// time spans would vary by the integration error. The result is therefore `last`, unless `last` and
-/// `proposed` differ by a factor of two or more.
+/// All time spans of a periodic motion should be integrated with the same steps. With equal steps, the states
+/// at the ends of the time spans converge if the motion converges. If the steps differed, the states at the
+/// ends of the time spans would vary by the integration error. The result is therefore `last`, unless `last`
+/// and `proposed` differ by a factor of two or more.
 #[inline(always)]
 pub(super) fn span_step(last: f64, proposed: f64) -> f64 {
     if 0.5 * last < proposed && proposed < 2.0 * last { last } else { proposed }

@@ -61,8 +61,8 @@ pub(super) struct Crossing<R: Lanes> {
     pub(super) accepted: R::Mask,
     /// Next step size.
     pub(super) h: R,
-    /// True if the step ends on the switching surface. The side then changes, and the first slope of the next
-    /// step must be computed again.
+    /// True if the step ends on the switching surface. When a step ends on the surface, the side changes, and
+    /// the first slope of the next step must be computed again.
     pub(super) arrived: R::Mask,
 }
 

@@ -49,7 +49,8 @@ pub const fn joined<'a, const N: usize>(tables: &[&[Parameter<'a>]]) -> [Paramet
 /// more fields of [`Parameter`](crate::parameter::Parameter), for example `default: 0.0`.
 ///
 /// If each line ends with a value, after the parentheses with unit, symbol and kind, declare a function below
-/// the struct, for example `pub fn published() -> Params;`. This function returns the struct with the values.
+/// the struct, for example `pub fn published() -> Params;`. The function `published` returns the struct with
+/// the values.
 ///
 /// The macro adds `TABLE`, `from_values` and `to_values` to the struct. The rows of `TABLE` have the order of the
 /// fields.
@@ -178,9 +179,9 @@ macro_rules! parameters {
 
 /// Declares an enum of named options for a parameter of the kind [`Choice`](crate::parameter::Kind::Choice).
 ///
-/// Each line contains the documentation of an option and the name of the option in grid files. In a point, the value of
-/// the parameter is the index of the option. The first option is the default. The macro adds the list `ALL` of the
-/// options and the list `NAMES` of their names to the enum.
+/// Each line contains the documentation of an option and the name of the option in grid files. In a point,
+/// the value of the parameter is the index of the option. The first option is the default. The macro adds two
+/// lists to the enum: `ALL` contains the options, and `NAMES` contains the names of the options.
 #[macro_export]
 macro_rules! choice {
     ($(#[$meta:meta])* pub enum $Name:ident {

@@ -157,7 +157,7 @@ fn envelope_columns<M: Model<N>, const N: usize>() -> Vec<String> {
     columns
 }
 
-/// Returns the motion after an impulse on the stroke. The drive voltage is constant during this motion.
+/// Returns the motion after an impulse on the stroke, at a constant drive voltage.
 fn free_response<M: ExperimentModel<N>, R: Scalar, const N: usize>(
     model: &M,
     run: &PointRun<'_>,

@@ -70,8 +70,8 @@ const LARGEST_RESPONSE: f64 = 1e3;
 /// error of the orbit changes the monodromy matrix M noticeably.
 const LARGE_RESPONSE: f64 = 30.0;
 
-/// Largest relative change of (1 − M)⁻¹ that the error of the orbit may cause. If the change is larger, flap
-/// reports no derivatives.
+/// Largest relative change of (1 − M)⁻¹ that the error of the orbit may cause. If the error causes a larger
+/// change, flap reports no derivatives.
 const DOUBT: f64 = 0.02;
 
 /// Largest relative difference between the backward and the forward difference of a measure without a kink.
@@ -81,14 +81,15 @@ const SMOOTH: f64 = 1e-3;
 /// Relative rounding error of a measure.
 const ROUNDING: f64 = 1e-13;
 
-/// A small change of the parameter values of a point. Derivatives of the measures are computed in the
-/// direction of this change.
+/// A small change of the parameter values of a point, in whose direction the derivatives of the measures are
+/// computed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// Parameter values after the change by `+size`, one for each parameter.
     pub ahead: Vec<f64>,
     /// Parameter values after the change by `-size`, one for each parameter. If a change by `-size` is
-    /// impossible, these are the values of the point itself, and flap computes a one-sided difference.
+    /// impossible, the field contains the values of the point itself, and flap computes a one-sided
+    /// difference.
     pub behind: Vec<f64>,
     /// Size of the change, by which differences of a measure are divided. The recommended size is
     /// [`Change::SHARE`] times the changed quantity, or [`Change::SHARE`] for relative changes.
@@ -96,8 +97,8 @@ pub struct Change {
 }
 
 impl Change {
-    /// Recommended size of a change relative to the changed quantity. The square of this size is negligible,
-    /// and the size is large compared with rounding errors.
+    /// Recommended size of a change relative to the changed quantity. The square of the recommended size is
+    /// negligible, and the size is large compared with rounding errors.
     pub const SHARE: f64 = 1e-8;
 
     /// Returns true if the change is zero. A value of NaN means that the parameter is computed from other
@@ -504,8 +505,8 @@ impl Halves {
         if known { Ok((self.backward + self.forward) / (2.0 * size)) } else { Err(NoSlope::Kink) }
     }
 
-    /// Returns true if a measure has a kink. The extrema in the measure must already be exactly equal if they
-    /// are equal within the integration error.
+    /// Returns true if a measure has a kink. Extrema in the measure that are equal within the integration
+    /// error must have been made exactly equal.
     ///
     /// A measure has a kink if the backward and the forward derivative differ by more than `error`. Both
     /// derivatives are dimensionless: the change of the measure relative to its size `of`, per relative

@@ -14,8 +14,8 @@ pub struct Point {
     pub index: u64,
     /// One value per parameter of the model.
     pub values: Vec<f64>,
-    /// State in which the motion begins, at the beginning of a drive period. An example is [`Row::state`] of
-    /// a neighbouring point. `None` means that the motion begins at rest.
+    /// State in which the motion begins, at the beginning of a drive period, for example [`Row::state`] of a
+    /// neighbouring point. `None` means that the motion begins at rest.
     pub begin: Option<Vec<f64>>,
 }
 

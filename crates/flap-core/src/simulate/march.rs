@@ -81,7 +81,7 @@ impl<const N: usize> March<N> {
     }
 
     /// Returns true if a state is far smaller than its size in `assumed`. The tolerance of the state was
-    /// computed from this size. The result is true only after [`SIZED`] periods.
+    /// computed from the size in `assumed`. The result is true only after [`SIZED`] periods.
     pub(super) fn is_oversized(&self, assumed: &[f64; N]) -> bool {
         let size = self.motion_size();
         self.strobe.cycles() == SIZED && (0..N).any(|i| size[i] < 0.5 * assumed[i])
@@ -133,7 +133,7 @@ impl<const N: usize> March<N> {
     }
 
     /// Returns the change of the state over the last `periods` drive periods. The result is NaN if the march
-    /// has fewer drive periods.
+    /// has fewer than `periods` drive periods.
     pub(super) fn change(&self, periods: u32) -> f64 {
         self.strobe.change(periods)
     }

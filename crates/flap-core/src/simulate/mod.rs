@@ -2,8 +2,8 @@
 //! points, and the output consists of rows.
 //!
 //! A sweep uses the trait [`Simulator`] of a model. The trait [`Gradients`] computes derivatives of rows, and
-//! the traits [`Motions`] and [`Experiments`] compute single motions. [`Runner`] implements these traits for
-//! a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
+//! the traits [`Motions`] and [`Experiments`] compute single motions. [`Runner`] implements all four traits
+//! for a [`Model`](crate::model::Model). [`all`] lists the models of this crate.
 
 mod experiments;
 mod gradient;

@@ -1,8 +1,8 @@
 //! The map from the state at the beginning of a drive period to the state at its end, near a fixed point.
 //!
 //! In the search for a symmetric orbit, the result of the map is the mirrored state in the middle of the
-//! period. The map of a whole period applies this half-period map twice, and both maps have the same fixed
-//! point.
+//! period. The map of a whole period applies the map of half a period twice, and both maps have the same
+//! fixed point.
 
 use super::linear::Lu;
 use crate::measure::multipliers::{Matrix, is_stable};
@@ -81,7 +81,7 @@ impl<const N: usize> Chord<N> {
     /// current state.
     ///
     /// If the residual hardly decreases, too many steps were made, or the linear system is singular, the
-    /// result is false. The state of the iteration then does not change.
+    /// result is false. If the result is false, the state of the iteration does not change.
     pub(super) fn step(&mut self, end: &[f64; N]) -> bool {
         self.update(end);
         let residual = residual(&self.orbit.y, end, &self.scale);
@@ -98,8 +98,8 @@ impl<const N: usize> Chord<N> {
 
     /// Updates M by Broyden's formula from the last step.
     ///
-    /// With an exact M, the step would end on the orbit, and the next period would not change the state. The
-    /// change over the next period is therefore the error of M in the direction of the step.
+    /// If M were exact, the step would end on the orbit, and the next period would not change the state. The
+    /// change over the next period is therefore a measure of the error of M in the direction of the step.
     fn update(&mut self, end: &[f64; N]) {
         let Some(before) = self.before else { return };
         let step: [f64; N] = core::array::from_fn(|i| (self.orbit.y[i] - before[i]) / self.scale[i]);

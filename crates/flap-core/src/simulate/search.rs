@@ -57,8 +57,8 @@ const NEUTRAL: f64 = 1e-3;
 /// Largest number of drive periods marched at the loose tolerance.
 const LOOSE_CYCLES: u32 = 16;
 
-/// Largest residual of an orbit that is found at the loose tolerance. At the loose tolerance, the step-size
-/// control makes the period map jump by less than this residual.
+/// Largest residual of an orbit that is found at the loose tolerance. The residual is larger than the jumps
+/// of the period map that the step-size control causes at the loose tolerance.
 const LOOSE_RESIDUAL: f64 = 1e-2;
 
 /// Residual below which the march at the loose tolerance is as close to its orbit as the result of Newton's

@@ -21,7 +21,7 @@ pub struct SolverSettings {
     /// Largest allowed [`error_estimate`](super::Row::error_estimate) and energy audit of a row.
     ///
     /// If the error estimate or the energy audit of a row exceeds `accuracy`, flap computes the row again
-    /// with smaller tolerances. The number of repetitions is limited.
+    /// with smaller tolerances. flap computes a row again only a few times.
     pub accuracy: f64,
     /// True to use Newton's iteration on the period map to find the orbit that a motion approaches.
     ///

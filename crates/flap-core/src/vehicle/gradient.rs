@@ -85,7 +85,8 @@ impl WingSlopes {
         self.measures.iter().zip(slopes).map(moved).collect()
     }
 
-    /// Returns the reason why the derivative along a change is missing, or `None` if the derivative exists.
+    /// Returns the reason why the derivative in the direction of a change is missing, or `None` if the
+    /// derivative exists.
     fn trouble(&self, change: usize) -> Option<NoSlope> {
         self.slopes[change].iter().flatten().find_map(|slope| slope.err())
     }

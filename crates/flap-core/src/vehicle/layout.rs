@@ -7,7 +7,7 @@ use super::parameters::{self, MassProperties, Table};
 use crate::parameter::Parameter;
 use crate::simulate::{Gradients, Simulator};
 
-/// Vehicle of several wings of one model.
+/// Vehicle whose wings all have the same model.
 pub struct Vehicle {
     pub(super) model: &'static dyn Simulator,
     pub(super) mounts: Vec<Mount>,

@@ -93,7 +93,7 @@ pub fn truth(value: f64) -> String {
 }
 
 /// Words with more characters than this number are shortened in messages. Only few file paths have more
-/// characters.
+/// characters than this number.
 const LONGEST_WORD: usize = 300;
 
 /// Numbers of characters that are kept at the beginning and at the end of a shortened word.

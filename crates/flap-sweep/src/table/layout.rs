@@ -40,7 +40,8 @@ pub struct Place {
     pub value: f64,
     /// True if the motions of the branches `up` and `down` differ at this value of the parameter.
     ///
-    /// The value is `None` for unstable orbits, and if neither of the two motions is periodic with the drive.
+    /// The value is `None` for unstable orbits, and if neither `up` nor `down` has a motion that is periodic
+    /// with the drive.
     pub bistable: Option<bool>,
 }
 

@@ -36,7 +36,7 @@ pub(super) struct LaneRuns<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usiz
     error: R,
 }
 
-/// Lanes in which a time span ended or a run failed in the last step. Each lane is one bit.
+/// Lanes in which a time span ended or a run failed in the last step, with one bit for each lane.
 pub(super) struct Events {
     /// Lanes in which the run is at the end of a time span.
     pub(super) landed: u64,
@@ -277,7 +277,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
 }
 
 /// Returns the absolute tolerances of the responses to changes of the initial state. `change` contains the
-/// sizes of the changes.
+/// size of the change of each component of the initial state.
 fn of_responses<const N: usize>(
     tolerances: &Tolerances,
     tolerance_factor: f64,

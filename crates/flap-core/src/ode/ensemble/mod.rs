@@ -4,7 +4,7 @@
 //! takes the next run from the queue, while the other lanes continue. All lanes are used until the queue is empty.
 //!
 //! No operation combines numbers of different lanes. The results of a run therefore do not depend on other
-//! runs. The results equal the results of [`super::solve`] to the last bit.
+//! runs. The results of an ensemble equal the results of [`super::solve`] to the last bit.
 
 mod integrate;
 mod lane_runs;

@@ -18,7 +18,7 @@ pub struct SpanEnd<'a, T, const N: usize> {
     /// Sums over the steps since the start of the run, which the observer has computed.
     pub totals: &'a T,
     /// Responses of the state to a change of each component of the initial state by [`Start::change`]. The
-    /// function [`run`](super::run) computes no responses, so the slice is empty.
+    /// slice is empty in the function [`run`](super::run), which computes no responses.
     pub responses: &'a [[f64; N]],
     /// Reason for the end of the run, and the numbers of steps and evaluations since the start of the run. At
     /// the end of a time span, the ending is [`Stopped`](crate::ode::Ending::Stopped).

@@ -65,7 +65,7 @@ struct Parser<'a> {
     comparisons: Vec<Range<usize>>,
     /// Mistakes after which the parser can still check the rest of the text.
     errors: Vec<ExpressionError>,
-    /// Mistakes in numbers with units. The parser reports these mistakes after the mistakes in names.
+    /// Mistakes in numbers with units, which the parser reports after the mistakes in names.
     unit_errors: Vec<ExpressionError>,
     nested: usize,
 }
