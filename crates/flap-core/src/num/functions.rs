@@ -39,8 +39,8 @@ const COS: [f64; 7] = [
 
 /// Returns the polynomial c₀ + c₁ x + c₂ x² + …, given x and x².
 ///
-/// The method is Horner's rule in x², over pairs of coefficients. The method needs as many operations as Horner's rule
-/// in x, but its chain of dependent operations is half as long.
+/// The method is Horner's rule in x², applied to pairs of coefficients. The method needs as many operations
+/// as Horner's rule in x, but its chain of dependent operations is half as long.
 #[inline(always)]
 fn polynomial<R: Bits, const N: usize>(x: R, square: R, c: &[f64; N]) -> R {
     let pair = |i: usize| {

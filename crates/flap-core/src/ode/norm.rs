@@ -2,8 +2,8 @@
 
 use crate::num::Lanes;
 
-/// Returns the mean square of the errors of a step, each divided by its tolerance. The formula is Eq.
-/// (II.4.11) of Hairer I, without the square root. A step is accepted if the result is below 1.
+/// Returns the mean square of the errors of a step, each divided by its tolerance. The formula is Hairer I,
+/// Eq. (II.4.11), without the square root. A step is accepted if the result is below 1.
 ///
 /// ```text
 /// 1/N Σᵢ (eᵢ / (atolᵢ + rtol max(|yᵢ|, |yᵢ new|)))²

@@ -23,7 +23,7 @@ pub(crate) struct RecordedStep {
     pub(crate) end: f64,
     /// Side of the switching surface on which the step lies: +1 or −1.
     pub(crate) side: f64,
-    /// True if the step ends on the switching surface. The next step is then on the opposite side.
+    /// True if the step ends on the switching surface, so that the next step is on the opposite side.
     pub(crate) lands: bool,
 }
 
@@ -34,8 +34,8 @@ pub(crate) struct Repeated<T, const N: usize> {
     pub(crate) y: [f64; N],
     /// Totals of the observer.
     pub(crate) totals: T,
-    /// True if the run and the recorded run reached the switching surface at almost equal times. The times
-    /// may differ by a small fraction of a mean step. If `meets` is false, the result is unusable.
+    /// True if the run and the recorded run reached the switching surface at almost equal times. The two
+    /// times may differ by a small fraction of a mean step. If `meets` is false, the result is unusable.
     pub(crate) meets: bool,
 }
 

@@ -9,7 +9,8 @@ use crate::num::Real;
 /// A step of the integration: its initial state, and the results of the last attempt to compute the step.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<R, const N: usize> {
-    /// State at each stage. The first stage has the old state, and the last stage has the new state.
+    /// State at each stage. The first state is the state at the beginning of the step, and the last state is
+    /// the state at the end.
     pub y: [[R; N]; STAGES],
     /// Slope at each stage. The last slope is the first slope of the next step.
     pub k: [[R; N]; STAGES],

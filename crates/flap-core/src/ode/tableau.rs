@@ -27,7 +27,7 @@ pub const A: [[f64; 6]; STAGES] = [
 pub const B: [f64; STAGES] =
     [35.0 / 384.0, 0.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0, 0.0];
 
-/// Weights of the error estimate: `B` minus the weights of the embedded fourth-order solution.
+/// Weights of the error estimate, which are `B` minus the weights of the embedded fourth-order solution.
 pub const E: [f64; STAGES] =
     [71.0 / 57600.0, 0.0, -71.0 / 16695.0, 71.0 / 1920.0, -17253.0 / 339_200.0, 22.0 / 525.0, -1.0 / 40.0];
 

@@ -70,8 +70,7 @@ const LARGEST_RESPONSE: f64 = 1e3;
 /// error of the orbit changes the monodromy matrix M noticeably.
 const LARGE_RESPONSE: f64 = 30.0;
 
-/// Largest relative change of (1 − M)⁻¹ that the error of the orbit may cause. If the error causes a larger
-/// change, flap reports no derivatives.
+/// Largest relative change of (1 − M)⁻¹, caused by the error of the orbit, at which flap reports derivatives.
 const DOUBT: f64 = 0.02;
 
 /// Largest relative difference between the backward and the forward difference of a measure without a kink.
@@ -197,8 +196,8 @@ pub(super) fn gradient<M: Model<N>, R: Scalar, const N: usize>(
     if interrupted() { Err(Unfinished::Interrupted) } else { Ok(gradient) }
 }
 
-/// Returns the factor by which the tolerances are multiplied in the first integration of the period. The
-/// steps of the first integration are recorded.
+/// Returns the factor by which the tolerances are multiplied in the first integration of the period, which
+/// records the steps.
 fn tolerance_factor(rtol: f64) -> f64 {
     TOLERANCE_FACTOR * (rtol / COARSE).min(1.0).sqrt()
 }

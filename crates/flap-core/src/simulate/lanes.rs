@@ -40,8 +40,8 @@ use crate::ode::{Interrupt, Start};
 /// periods end.
 const BATCH: usize = 128;
 
-/// Largest number of points that wait. While the ensemble integrates points of one model variant, points of
-/// different variants wait.
+/// Largest number of points that wait because their model variant differs from the variant that is being
+/// integrated.
 ///
 /// With far more points than lanes, lanes are seldom empty.
 const ASIDE: usize = 512;

@@ -43,14 +43,11 @@ pub(super) struct Request<const N: usize> {
 pub(super) struct PeriodEnd<T, const N: usize> {
     /// State.
     pub(super) y: [f64; N],
-    /// Largest magnitude of each state since the start of the run, for [`Kind::States`]. The magnitudes are
-    /// NaN for other kinds of periods.
+    /// Largest magnitude of each state since the start of the run, for [`Kind::States`], otherwise NaN.
     pub(super) largest: [f64; N],
-    /// Monodromy matrix in units of the states' typical sizes, for [`Kind::Responses`]. The matrix contains
-    /// NaN for other kinds of periods.
+    /// Monodromy matrix in units of the states' typical sizes, for [`Kind::Responses`], otherwise NaN.
     pub(super) monodromy: Matrix<N>,
-    /// Sums over the signals, for [`Kind::Means`] and [`Kind::Signals`]. The sums are `None` for other kinds
-    /// of periods.
+    /// Sums over the signals, for [`Kind::Means`] and [`Kind::Signals`], otherwise `None`.
     pub(super) sums: Option<Box<T>>,
     /// Reason for the end of the integration, and the costs since the start of the run.
     pub(super) outcome: Outcome,

@@ -397,7 +397,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Marched { begin, end, error, maps: self.maps_per_period() }
     }
 
-    /// Marches until the motion has settled or may be close to an orbit, or for the allowed number of periods.
+    /// Marches until the motion has settled or may be close to an orbit, or for the largest allowed number of
+    /// periods.
     ///
     /// Returns `None` if a period cannot be integrated.
     async fn march(&mut self, at: Tolerance) -> Option<()> {
@@ -710,7 +711,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         self.solver.settle_tol.max(MATRIX_RESIDUAL * self.rtol().sqrt())
     }
 
-    /// Returns the smallest allowed factor on the requested tolerances.
+    /// Returns the smallest factor by which the requested tolerances may be multiplied.
     fn finest(&self) -> f64 {
         self.exchange.start.tolerance_factor * FINEST.max(FINEST_RTOL / self.solver.rtol).min(1.0)
     }

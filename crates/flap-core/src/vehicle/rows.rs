@@ -149,8 +149,8 @@ struct WingJobs<'a> {
     /// Points of wings that are not yet simulated. The index of a wing's point is composed of the number of the
     /// vehicle's point and the index of the design.
     waiting: VecDeque<Point>,
-    /// Points of the vehicle whose row is not finished. The keys of the hash map are the numbers of the
-    /// points. The values contain the index that `jobs` gave to a point, and the wings of the point.
+    /// Points of the vehicle whose row is not finished, by the number of the point. Each entry contains the
+    /// wings of the point, and the index that `jobs` gave to the point.
     begun: HashMap<u64, (u64, Wings)>,
     /// Number of the next point of the vehicle.
     next: u64,

@@ -121,8 +121,8 @@ fn unit_in_models(name: &str, models: &[&'static dyn Simulator]) -> Option<&'sta
     })
 }
 
-/// Returns the text of a label: the words, then the unit in parentheses. Without a unit, the text is only the
-/// words.
+/// Returns the text of a label: the words, then the unit in parentheses. If `unit` is empty, the text
+/// contains only the words.
 pub fn titled(words: &str, unit: &str) -> String {
     if unit.is_empty() { words.to_owned() } else { format!("{words} ({unit})") }
 }

@@ -43,7 +43,7 @@ pub trait Queue<O: Ode<N>, V: Observer<O, N>, const N: usize> {
     /// no run is available at present.
     ///
     /// If `idle` is true, no lane has a run. If no lane has a run, the function may wait until a run is
-    /// available, and the result `None` ends the ensemble.
+    /// available. A result of `None` then ends the ensemble.
     fn next(&mut self, lane: usize, idle: bool) -> Option<Start<&O::Constants<f64>, N>>;
 
     /// Receives the run in a lane at the end of a time span, or after a failure of the run. Returns the next
