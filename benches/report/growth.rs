@@ -13,7 +13,7 @@ pub(crate) fn print(files: &[PathBuf]) {
          This section reports the time and memory of `flap sweep` for different numbers of points.\n\
          The grids vary voltage and frequency around the published values of a preset; the tolerance `settle_tol` equals `rtol`.\n\
          Each row has four measures, and the rows go into CSV files.\n\
-         `just bench-report` uses one and two threads; `just growth --threads 1,2,4,8,16 --shards 16` uses more.\n\
+         `just bench-report` measures with one and two threads; `just growth --threads 1,2,4,8,16 --shards 16` measures with up to 16 threads.\n\
          [Shards](../glossary.md#shard) run at the same time, each on one thread, and the files of all shards are merged afterwards.\n\
          The CPU time of shards includes the merge, and the memory of shards is the memory of the largest process.\n"
     );

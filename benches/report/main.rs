@@ -61,8 +61,8 @@ fn main() {
     );
     println!(
         "This page reports the speed and memory of flap, and compares flap with other solvers.\n\
-         The numbers differ between machines. If the text above a table names no processor, the numbers are from the machine of the next section.\n\
-         Measured numbers are medians of several rounds, with the smallest and the largest value in parentheses.\n"
+         The numbers differ between machines. If the text above a table names no processor, the numbers are from the machine in the section [Machine](#machine).\n\
+         Measured numbers are medians of repeated measurements, with the smallest and the largest value in parentheses.\n"
     );
     machine::print();
     peers::print(&files_of(&arguments, "--peers"));

@@ -66,7 +66,7 @@ fn print_table(told: &Value) -> Option<()> {
 
     let counted = peers.iter().any(|peer| peer["periods_per_point"].is_number());
     println!(
-        "The next table is for {} points at rtol {:e}, in {} rounds on {}:\n\n\
+        "The next table is for {} points at rtol {:e}, measured {} times on {}:\n\n\
          | solver | points per CPU-second | rate of flap divided by rate of the solver |{} median relative error | remarks |\n\
          |---|---|---|{}---|---|",
         told["points"],
