@@ -28,7 +28,7 @@ pub(crate) fn print(effort: Effort) {
          The program executes the integration loop one instruction at a time and counts the instructions.\n\
          The kind of each instruction comes from a disassembly of the program.\n\
          Each count is a number of instructions for one right-hand side.\n\
-         The right-hand side is evaluated for all lanes at once, and each value of all lanes fills two registers.\n\
+         flap evaluates the right-hand side for all lanes at once, and one quantity of all lanes fills two registers.\n\
          Counts also include the instructions of an integration step that do not belong to the right-hand side.\n\
          \n\
          - *arithmetic*: instructions that add, multiply, divide or compare vectors of doubles, or fuse a multiplication and an addition\n\

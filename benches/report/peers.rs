@@ -17,15 +17,14 @@ const WORKS: [Work; 3] = [
     Work {
         name: "integration",
         text: "## Beside other solvers\n\n\
-               All solvers integrate the equations of `examples/own_equations` for the same points, in turn on one core.\n\
+               All solvers integrate the equations of `examples/own_equations` for the same points, one solver after the other on one core.\n\
                The error of a point is the largest relative error of its measures; the tables have the median over the points.\n\
                [Comparison with other solvers](../../benches/peers/README.md) describes the programs and the measurement.\n",
     },
     Work {
         name: "settled",
         text: "## Settled motions beside other solvers\n\n\
-               The points have the preset `jafferis2016`, voltages of 120 to 200 V and frequencies of 102 to 132 Hz.\n\
-               Only the last table of this section has different points.\n\
+               Except in the last table of this section, the points are `jafferis2016` at voltages of 120 to 200 V and frequencies of 102 to 132 Hz.\n\
                Each motion starts at rest, runs until a drive period changes the state by at most 1e-6, and is measured over the next drive period.\n\
                The other solvers [march](../glossary.md#march) until the motion is settled.\n\
                flap runs as the command `flap sweep`, which writes rows with all columns.\n\

@@ -40,7 +40,7 @@ pub(crate) const PAPER: Paper = Paper {
                       - For pitch, both wings have the same bias voltage.\n\
                       - For yaw, a second harmonic (split cycle) is added on the left and subtracted on the right, at the phase with the largest yaw torque.\n\
                       \n\
-                      On each wing, the change is a fifth of the drive amplitude.",
+                      On each wing, the change of the drive is a fifth of the drive amplitude.",
             quick: true,
             claims: drives::claims,
         },
