@@ -28,8 +28,8 @@ struct Joined {
 }
 
 impl Joined {
-    /// Adds a module after the modules that it imports. `importers` is the chain of modules that leads to
-    /// this module by imports.
+    /// Adds a module after the modules that it imports. `importers` is a list of modules: each module imports
+    /// the next module, and the last module imports `module`.
     fn add(&mut self, module: &str, importers: &mut Vec<String>) {
         if self.modules.contains(module) {
             return;

@@ -162,8 +162,8 @@ fn with_hint(mut error: clap::Error) -> clap::Error {
     error
 }
 
-/// Builds the clap command of `flap`. Its help lists the commands in groups, and the help of each command has
-/// an example at the top.
+/// Builds the clap command of `flap`. `flap --help` lists the commands in groups, and the help of each
+/// command has an example at the top.
 pub(crate) fn command() -> clap::Command {
     let mut command = Args::command();
     // Adds the command `help`, which the groups list.

@@ -1,5 +1,6 @@
 //! Completion in a shell. When the user requests completion, the shell runs `flap` with the words of the
-//! incomplete command line, and `flap` prints candidates for the last word.
+//! incomplete command line. `flap` then prints the possible completions of the last word, which are called
+//! candidates.
 //!
 //! A completion script cannot contain the candidates, because they include the columns of files in the
 //! working directory and the additional models of other programs.
@@ -25,10 +26,10 @@ use crate::args;
 use crate::models;
 use crate::statuses;
 
-/// The environment variable with which a shell requests candidates.
+/// The environment variable with which a shell requests the possible completions of a word.
 pub(crate) const VARIABLE: &str = "COMPLETE";
 
-/// If a shell requests candidates, prints them and ends the process.
+/// If a shell requests the possible completions of a word, prints the completions and ends the process.
 pub(crate) fn answer() {
     let completion = CompleteEnv::with_factory(command).var(VARIABLE);
     match completion.try_complete(args::line(), env::current_dir().ok().as_deref()) {
@@ -65,7 +66,7 @@ fn completed(arg: Arg) -> Arg {
     }
 }
 
-/// Returns a candidate: a name with the first line of its meaning.
+/// Returns a possible completion: a name with the first line of its meaning.
 fn candidate(name: &str, meaning: &str) -> CompletionCandidate {
     CompletionCandidate::new(name).help(meaning.lines().next().map(|line| line.to_owned().into()))
 }
@@ -144,15 +145,15 @@ fn names() -> Vec<CompletionCandidate> {
     distinct(parameters().into_iter().chain(columns()).chain(settings).chain(statuses()))
 }
 
-/// Returns the candidates that begin with the text `word`.
+/// Returns the possible completions that begin with the text `word`.
 fn begun(word: &OsStr, mut candidates: Vec<CompletionCandidate>) -> Vec<CompletionCandidate> {
     let word = word.to_string_lossy();
     candidates.retain(|candidate| candidate.get_value().to_string_lossy().starts_with(&*word));
     candidates
 }
 
-/// Returns the candidates without repeated names. If several candidates have the same name, the function
-/// keeps the first.
+/// Returns the possible completions without repeated names. If several completions have the same name, the
+/// function keeps the first.
 fn distinct(candidates: impl Iterator<Item = CompletionCandidate>) -> Vec<CompletionCandidate> {
     let mut kept: Vec<CompletionCandidate> = Vec::new();
     for candidate in candidates {
@@ -186,7 +187,7 @@ fn robot_of_grid(word: &str) -> Option<Robot> {
 }
 
 /// Returns the columns of results, if the word is the name of a results file. The function reads only the
-/// header of the file, because the shell waits for the candidates.
+/// header of the file, because the shell waits for the names of the columns.
 fn columns_of(word: &str) -> Option<Vec<String>> {
     let path = Path::new(word);
     let is_results = path.is_file() && path.extension().is_none_or(|ending| ending != "toml");

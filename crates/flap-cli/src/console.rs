@@ -19,8 +19,8 @@ pub(crate) fn is_quiet() -> bool {
     QUIET.load(Ordering::Relaxed)
 }
 
-/// Returns the largest number of characters in a line of stdout. This is the width of the terminal or,
-/// without a terminal, the environment variable COLUMNS.
+/// Returns the largest number of characters in a line of stdout. The number is the width of the terminal or,
+/// without a terminal, the value of the environment variable COLUMNS.
 ///
 /// The result is `None` if there is neither a terminal nor COLUMNS, for example in a pipe. If the result is
 /// `None`, lines may have any length.

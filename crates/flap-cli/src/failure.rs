@@ -232,8 +232,8 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// Converts errors of the given types into failures of the kind `Usage`. The user can correct such errors,
-/// and their messages contain the remedy.
+/// Converts errors of the given types into failures of the kind `Usage`. The messages of these errors contain
+/// the remedy, because the user can correct the mistakes.
 macro_rules! usage {
     ($($error:ty),*) => {
         $(impl From<$error> for Failure {

@@ -68,7 +68,8 @@ pub fn first(modes: &[Mode]) -> Result<Mode, Invalid> {
 /// Applies an impulse to the stroke of a point and computes the frequencies of the motion after the impulse.
 ///
 /// # Errors
-/// [`Unfinished`] if the run is interrupted, the values or the request are impossible, or the motion fails.
+/// [`Unfinished`] if the run is interrupted, if the values or the request are impossible, or if the motion
+/// cannot be computed.
 pub fn examine(
     model: &dyn Experiments,
     run: &PointRun<'_>,

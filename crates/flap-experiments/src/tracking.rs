@@ -54,7 +54,7 @@ pub fn strokes(edges: &[LeadingEdge]) -> Vec<f64> {
 /// Returns the pitch (rad) of a wing, Eq. (42). `distance` is the distance in the image between the lower
 /// edge and the leading edge of the wing.
 ///
-/// `chord` is the length of the chord at this position.
+/// `chord` is the length of the chord from the leading edge to the lower edge of the wing.
 ///
 /// ```text
 /// ψ = arcsin(d/c_edge)

@@ -6,7 +6,7 @@ use std::hint::black_box;
 use axum::http::header::{HOST, ORIGIN};
 use axum::http::{HeaderMap, Uri};
 
-/// The header of the page's requests that contains the token.
+/// The name of the HTTP header in which the page sends the token.
 const TOKEN_HEADER: &str = "x-flap-token";
 
 /// The check of every request, which accepts only requests of the page itself.
@@ -22,7 +22,7 @@ pub(crate) struct Guard {
 pub(crate) enum Rejection {
     /// The token is missing or wrong.
     WrongToken,
-    /// The request was sent to another host name, or comes from another page.
+    /// The request was sent to a host name that the server does not have, or comes from another web page.
     ForeignOrigin,
 }
 

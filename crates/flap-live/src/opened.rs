@@ -33,8 +33,8 @@ pub(crate) struct Opened {
     head: String,
     /// The plan of `head`, in which all parameters have the published values.
     published: Plan,
-    /// Value of each parameter, from the first point. The value is NaN if the parameter is computed from other
-    /// parameters.
+    /// Value of each parameter at the first point of the opened plan. The value is NaN if the parameter is
+    /// computed from other parameters.
     values: Vec<f64>,
     /// The row of the published design, computed at the first request.
     published_row: OnceLock<Row>,
@@ -44,7 +44,7 @@ impl Opened {
     /// Opens the first design of a plan, with its formulas, conditions and settings.
     ///
     /// # Errors
-    /// The mistakes that the opened file has without its sections about points.
+    /// The mistakes in the opened file after its sections about points are removed.
     pub(crate) fn new(plan: Plan, models: &[&'static dyn Simulator]) -> Result<Opened, Mistakes> {
         let head = head(&plan);
         let published = parsed(&plan, &head, models)?;

@@ -37,7 +37,7 @@ pub(crate) struct By {
     pub(crate) values: Vec<Number>,
 }
 
-/// A request for a family of lines, whose points are rows.
+/// A request for a family of lines in a chart. The answer contains one row for each point of a line.
 #[derive(Debug, Deserialize)]
 pub(crate) struct FamilyRequest {
     #[serde(default)]

@@ -9,11 +9,11 @@ use xxhash_rust::xxh3::Xxh3Default;
 const PACKAGES: [&str; 8] =
     ["chacha20", "fearless_simd", "itoa", "libm", "nalgebra", "rand", "rand_core", "zmij"];
 
-/// Possible lock files: of a published package, and of the repository.
+/// Possible paths of the lock file: in a published package, and in the repository.
 const LOCKS: [&str; 2] = ["Cargo.lock", "../../Cargo.lock"];
 
 /// Prints a line with which cargo sets the environment variable `FLAP_SOURCES`. The value is the hash of the
-/// current package, in 16 hexadecimal digits.
+/// current package, written as 16 hexadecimal digits.
 ///
 /// # Errors
 /// The error of the operating system if a source or the lock file cannot be read.

@@ -42,8 +42,8 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = DESCRIBE_HELP)]
 pub(crate) struct DescribeArgs {
-    /// Measures for which flap lists the best value of each axis, separated by commas. [default: lift_mean_mn and
-    /// efficiency_gf_per_w, or the first measure if the file has neither column]
+    /// Measures, separated by commas: for each measure, flap lists the values of the axes in the best row.
+    /// [default: lift_mean_mn and efficiency_gf_per_w, or the first measure if the file has neither column]
     #[arg(long, value_name = "COLUMN,...", value_delimiter = ',')]
     pub(crate) by: Vec<String>,
 

@@ -31,8 +31,8 @@ pub(crate) struct OptimiseArgs {
     #[arg(long = "where", value_name = "COMPARISON")]
     pub(crate) conditions: Vec<String>,
 
-    /// Compute a Pareto front of both goals with at most N designs; each design optimises one goal under a
-    /// limit on the other goal
+    /// Compute a Pareto front of --maximise and --minimise with at most N designs; each design optimises one
+    /// goal under a limit on the other goal
     ///
     /// --points requires both --maximise and --minimise
     #[arg(long, value_name = "N", value_parser = value_parser!(u32).range(2..=10_000), conflicts_with = "out")]

@@ -72,7 +72,8 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_enum)]
     pub(crate) x_aim: Option<Aim>,
 
-    /// Direction in which column y is better in a Pareto picture [default: as for column x]
+    /// Direction in which column y is better in a Pareto picture [default: min or max, by the rule of
+    /// --x-aim]
     #[arg(long, value_enum)]
     pub(crate) y_aim: Option<Aim>,
 
@@ -164,7 +165,7 @@ impl PictureKind {
 /// The size of a picture: width and height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PictureSize {
-    /// Width and height in pixels. A PNG has twice these numbers of pixels.
+    /// Width and height in pixels. A PNG has twice as many pixels in each direction.
     Pixels([u16; 2]),
     /// Width and height on paper (mm).
     Print([f64; 2]),

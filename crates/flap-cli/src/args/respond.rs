@@ -9,8 +9,9 @@ use super::options::{BeginArgs, ChangeArgs, OutputFormat, SolverArgs};
 pub(crate) struct RespondArgs {
     /// Preset, device file or grid file; `-` reads a grid from stdin
     ///
-    /// The grid may have an axis for the followed parameter, which is the parameter of `--along`. Each combination of values of the axes without
-    /// the followed parameter is one design with one curve.
+    /// The grid may have an axis for the followed parameter, which is the parameter of `--along`. flap
+    /// computes one curve for each combination of the values of all axes except the axis of the followed
+    /// parameter.
     #[arg(value_name = "PRESET|FILE")]
     pub(crate) what: String,
 
@@ -45,8 +46,8 @@ pub(crate) struct RespondArgs {
     /// Follow the ends of bistable bands in the plane of two parameters: the followed parameter and PARAMETER
     ///
     /// flap first computes the response with the design's own value of PARAMETER. Each end of a bistable band
-    /// is then a point in the plane of the two parameters. From this point, flap follows the end of the band
-    /// in both directions.
+    /// is then a point in the plane of the two parameters. From the design's own value of PARAMETER, flap
+    /// follows the end of the band in this plane in both directions.
     #[arg(
         long,
         value_name = "PARAMETER",
@@ -64,8 +65,8 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE", allow_hyphen_values = true, requires = "edge", help_heading = EDGES)]
     pub(crate) edge_to: Option<String>,
 
-    /// Print only the cusps, the ends of each edge, and the points where PARAMETER is --edge-from plus
-    /// multiples of VALUE [default: all computed points]
+    /// Print only the cusps, the ends of each edge, and the points where PARAMETER is --edge-from plus a
+    /// multiple of VALUE [default: all computed points]
     #[arg(long, value_name = "VALUE", requires = "edge", help_heading = EDGES)]
     pub(crate) edge_step: Option<String>,
 

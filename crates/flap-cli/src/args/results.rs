@@ -93,7 +93,8 @@ pub(crate) struct RerunArgs {
     )]
     pub(crate) status: Vec<Status>,
 
-    /// Run all points again that have an `error_estimate` larger than the accuracy setting of RESULTS
+    /// Run all points again that have an `error_estimate` larger than the setting `accuracy` with which
+    /// RESULTS was computed
     #[arg(long)]
     pub(crate) inaccurate: bool,
 

@@ -9,7 +9,7 @@ use flap_core::simulate::Status;
 use flap_sweep::notation::{nearest, units};
 use flap_sweep::resonance;
 
-/// Value of `--trim` for the target at which the force equals the weight and all torques are zero.
+/// The value of `--trim` that requires a force equal to the weight, and torques of zero.
 pub(crate) const HOVER: &str = "hover";
 
 /// Parses `name=value` and returns both parts without surrounding blanks.
@@ -48,12 +48,12 @@ pub(super) fn length(text: &str) -> Result<f64, String> {
     size(text, "m", "2 mm")
 }
 
-/// Parses a density (kg/m³), zero or more.
+/// Parses a density (kg/m³), which must not be negative.
 pub(super) fn density(text: &str) -> Result<f64, String> {
     size(text, "kg/m^3", "1400 kg/m^3")
 }
 
-/// Parses a mass per length (kg/m), zero or more.
+/// Parses a mass per length (kg/m), which must not be negative.
 pub(super) fn line_density(text: &str) -> Result<f64, String> {
     size(text, "kg/m", "20 mg/m")
 }

@@ -18,8 +18,8 @@ pub(crate) struct VehicleArgs {
     /// Inputs of the vehicle, separated by commas: parameters, or the words for inputs that are listed at the end of
     /// this help
     ///
-    /// The default inputs are amplitude, bias and, with drive_shape = "harmonics", second_harmonic. Each of the default
-    /// words gives two inputs: one input changes all wings together, and one input is the left-right difference.
+    /// The default inputs are amplitude, bias and, with drive_shape = "harmonics", second_harmonic. flap uses
+    /// each default input twice: for all wings together, and as the difference between left and right wings.
     #[arg(short, long, value_name = "NAME,...", value_delimiter = ',')]
     pub(crate) inputs: Vec<String>,
 

@@ -212,8 +212,8 @@ fn deviations(plan: &Plan) -> String {
     "\n".to_owned() + &table.text_within(console::width())
 }
 
-/// Returns a text about parameters that are constant although they usually change with a varied parameter,
-/// and formulas that would change them together. The text is empty if `linked` is empty.
+/// Returns a text about parameters that are constant although they usually change with a varied parameter.
+/// The text proposes a formula for each of these parameters. The text is empty if `linked` is empty.
 fn links(linked: &[Linked<'_>]) -> String {
     if linked.is_empty() {
         return String::new();

@@ -27,8 +27,7 @@ pub(crate) fn write_file(
     write_motions_file(&[Keyed { keys: &[], motion }], path, overwrite, row)
 }
 
-/// Writes several motions into one CSV file, one below the other. Otherwise the function does the same as
-/// [`write_file`].
+/// Writes several motions into one CSV file as [`write_file`] does. The motions are one below the other.
 pub(crate) fn write_motions_file(
     motions: &[Keyed<'_>],
     path: &Path,

@@ -33,7 +33,7 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
 }
 
 /// Returns the plan in the sidecar of earlier results. If the earlier results are a rerun, also returns the
-/// results from which its points were chosen.
+/// results from which the points of the rerun were chosen.
 fn repeated(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
     let path = args.grid();
     if args.shard.is_some() {

@@ -80,7 +80,8 @@ pub(crate) fn run(args: &TopArgs) -> Result<Exit, Failure> {
 }
 
 /// Returns the columns that flap lists: first the index and the parameters of the point, or the first column
-/// of a file without statuses. The ranking column, the columns of `--columns` and the status are next.
+/// of a file without statuses. After these columns, flap lists the ranking column, the columns of `--columns`
+/// and the status.
 fn columns(args: &TopArgs, source: &Source) -> Result<Vec<usize>, Failure> {
     let status = source.position("status");
     let mut columns: Vec<usize> = (0..status.unwrap_or(1)).collect();

@@ -24,8 +24,8 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
 
-/// flap leaves out an input or a component of force and torque whose share of a combination is smaller than
-/// this fraction.
+/// In a combination of inputs, flap leaves out each input, force and torque with a share below this fraction.
+/// For one input, flap leaves out forces and torques below this fraction of the largest change.
 const SMALL: f64 = 0.1;
 
 /// flap leaves out a combination of inputs whose singular value is smaller than this fraction of the largest

@@ -28,8 +28,7 @@ pub(crate) struct Axes {
 type Varied = (usize, Levels);
 
 impl Axes {
-    /// Returns the axes among the columns 1 to `end`, without `end`. Column 0 contains the index of the
-    /// point.
+    /// Returns the axes among the columns 1 to `end` - 1. Column 0 contains the index of the point.
     pub(crate) fn of(table: &Table, end: usize) -> Axes {
         let rows: Vec<usize> = (0..table.rows).collect();
         let (mut kept, mut others): (Vec<Varied>, Vec<Varied>) = (Vec::new(), Vec::new());
@@ -67,8 +66,8 @@ impl Axes {
     }
 }
 
-/// The smallest and the largest value of an axis. If the best row has one of these values, points beyond the
-/// axis may be better.
+/// The smallest and the largest value of an axis. If the best row is at the smallest or largest value, an
+/// axis with a wider range may have better points.
 #[derive(Default)]
 pub(crate) struct Ends {
     range: Option<[f64; 2]>,
@@ -117,8 +116,8 @@ fn members(table: &Table, sample: &[usize], kept: &[Varied], others: &[Varied]) 
     members
 }
 
-/// Returns the columns in `kept` that belong to a sample according to the sidecar. Without a sidecar, returns
-/// the columns in `kept` whose values look like a sample.
+/// Returns the columns in `kept` that belong to a sample according to the sidecar or, without a sidecar,
+/// according to the values in the columns.
 fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
     let full = |levels: &Levels| levels.len() * 2 > table.rows && table.rows > 3;
     let looks_sampled = |(column, levels): &&Varied| {
@@ -144,8 +143,8 @@ fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
 /// of points.
 const FEWEST: usize = 8;
 
-/// Returns true if the values of two columns determine each other but have different orders. Two columns of
-/// this kind are parameters of a sample.
+/// Returns true if the values of two columns determine each other but have different orders, as two
+/// parameters of a sample do.
 fn is_mixed((column, levels): (usize, &Levels), (other, others): &Varied, table: &Table) -> bool {
     let (Cells::Numbers(one), Cells::Numbers(two)) =
         (&table.columns[column].cells, &table.columns[*other].cells)

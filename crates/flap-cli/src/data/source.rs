@@ -257,7 +257,8 @@ fn plan_beside(results: &Path, sidecar: Option<&Sidecar>) -> Option<Plan> {
 }
 
 /// Returns the names of the sampled parameters of a plan. The result is `None` if no parameter is sampled but
-/// an axis lists values of several parameters. Such a list may contain the points of a sample.
+/// an axis lists values of several parameters. An axis that lists values of several parameters may contain
+/// the points of a sample.
 fn sampled(plan: &Plan) -> Option<Vec<String>> {
     let parameters = plan.parameters();
     let is_sampled = |values: &Values| matches!(values, Values::Sampled { .. } | Values::Correlated { .. });
@@ -284,8 +285,8 @@ fn refined(plan: &Plan) -> Vec<RefinedAxis> {
     parameters.map(axis).collect()
 }
 
-/// The units of columns. The plan in the sidecar determines these units. Without a sidecar, flap takes the
-/// units from the models and from the endings of the column names.
+/// The units of columns, from the plan in the sidecar. Without a sidecar, flap takes the units from the
+/// models and from the endings of the column names.
 struct Units(BTreeMap<String, String>);
 
 impl Units {

@@ -121,7 +121,7 @@ fn report_warnings(plan: &Plan, done: &Done) {
 }
 
 /// Prints the number of points that did not settle, and advice, such as a command that runs these points
-/// longer. In a rerun, the advice differs, because a rerun has already run the points longer.
+/// longer. In a rerun, the advice is to run the points longer only if their residual has become smaller.
 fn report_unsettled(plan: &Plan, done: &Done) {
     let unsettled = done.summary.statuses.of(Status::Unsettled);
     if unsettled == 0 {

@@ -120,7 +120,7 @@ fn exit_code_of(all_periodic: bool, work: &WorkArgs) -> Exit {
 
 /// Runs the plan with a progress bar, until a signal stops it.
 ///
-/// If the plan follows a parameter, `verdicts` collects or prints a summary of each response curve.
+/// In `flap respond`, `verdicts` collects or prints a summary of each response curve.
 pub(crate) fn run_with_progress(
     plan: &Plan,
     options: &RunOptions,

@@ -38,8 +38,8 @@ pub(crate) struct Verdicts<'a> {
 }
 
 impl<'a> Verdicts<'a> {
-    /// Returns an empty list of summaries. The result is `None` if the plan follows no parameter, or if its
-    /// model has no measure `stroke_amplitude_deg`.
+    /// Returns an empty list of summaries. The result is `None` if the plan computes no response curves, or
+    /// if its model has no measure `stroke_amplitude_deg`.
     pub(crate) fn of(plan: &'a Plan, format: OutputFormat, stream: Lines) -> Option<Verdicts<'a>> {
         let along = plan.followed()?;
         let parameter = along.parameter(plan);

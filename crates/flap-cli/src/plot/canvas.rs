@@ -68,8 +68,8 @@ const SMALLEST: f64 = 200.0;
 /// Largest allowed width and height of a picture, in drawing units.
 const LARGEST: f64 = 4000.0;
 
-/// Largest allowed number of pixels of a PNG. It equals the number for the largest size that the user can
-/// give in pixels.
+/// Largest allowed number of pixels of a PNG. The largest picture whose size the user can give in pixels has
+/// this number of pixels.
 const MOST_PIXELS: f64 = (LARGEST * SCALE as f64) * (LARGEST * SCALE as f64);
 
 impl Canvas {

@@ -50,7 +50,8 @@ struct Effect {
 struct Effects {
     parameters: Vec<Effect>,
     designs: usize,
-    /// Two standard deviations of the measure: in a linear model with all derivatives, and among the designs.
+    /// Standard deviation of the measure, computed twice: from the derivatives with a linear model, and from
+    /// the designs.
     deviations: [f64; 2],
 }
 

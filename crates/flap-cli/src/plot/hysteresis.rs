@@ -142,7 +142,7 @@ fn words<'t>(table: &'t Table, name: &str) -> Result<impl Fn(usize, &str) -> boo
 }
 
 impl Curve {
-    /// Returns the positions of the branch points after which the motion jumps.
+    /// Returns the positions of the branch's points after which the motion jumps.
     fn after(&self, kind: usize) -> &[usize] {
         self.compared.jumps.get(kind).map_or(&[], Vec::as_slice)
     }

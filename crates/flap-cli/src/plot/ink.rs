@@ -111,7 +111,8 @@ pub(super) fn dashes(scene: &mut Scene, from: (f64, f64), to: (f64, f64), (colou
     });
 }
 
-/// Draws a text at a position. `anchor` determines whether the text begins, ends or is centred there.
+/// Draws a text at a position. `anchor` determines whether the text begins, ends or is centred at this
+/// position.
 pub(super) fn text(scene: &mut Scene, (x, y): (f64, f64), content: &str, size: u32, anchor: TextAnchor) {
     let content = content.to_owned();
     scene.add(Primitive::Text { x, y, content, size, anchor, rotate: None, bold: false, color: None });

@@ -36,7 +36,7 @@ impl Label {
 }
 
 impl Table {
-    /// Returns the label of a column. Its unit suits the largest number of the column.
+    /// Returns the label of a column. The unit in the label suits the largest number of the column.
     pub(super) fn label(&self, index: usize) -> Label {
         let column = &self.columns[index];
         let largest = match &column.cells {

@@ -122,7 +122,7 @@ fn nearest_cells(table: &Table, selection: &Selection, color: usize) -> Result<G
 }
 
 /// Number of raster positions in the horizontal and the vertical direction. The plot area of a usual picture
-/// has about as many pixels.
+/// has about one pixel per raster position.
 const RASTER: [usize; 2] = [720, 480];
 
 /// Returns the position of a value on an axis, as a fraction from 0 to 1.

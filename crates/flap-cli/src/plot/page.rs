@@ -39,8 +39,8 @@ pub(super) fn page(args: &PlotArgs, heading: &str, is_verbose: bool) -> Result<S
     Ok(flap_live::page::results(heading, &data))
 }
 
-/// Returns the first view of the page. It is the picture that `flap plot` would draw with the same arguments,
-/// if such a picture is possible.
+/// Returns the first view of the page. If `flap plot` can draw a picture with the arguments of the command,
+/// the first view is this picture.
 fn start(request: &Request, table: &Table, axes: &Axes, args: &PlotArgs) -> Result<Start, Failure> {
     let filters = (request.filters.iter())
         .map(|(column, text)| Ok((request.name(*column).to_owned(), filter(table, *column, text)?)))

@@ -97,8 +97,8 @@ fn check_best_over(request: &Request, hidden: &[usize]) -> Result<(), Failure> {
     }))
 }
 
-/// Returns, for each position of the picture, the row with the best measure. Prints the values of the best of
-/// these rows.
+/// Returns, for each position of the picture, the row with the best measure. Also prints the best value of
+/// the measure in the whole picture, with the values of the axes.
 fn best(
     request: &Request,
     table: &Table,
@@ -125,7 +125,7 @@ fn best(
     Ok(rows)
 }
 
-/// Returns true if the file has rows of the branch up and of the branch down.
+/// Returns true if the file has rows of the branches `up` and `down`.
 fn has_both_ways(table: &Table, branch: usize) -> bool {
     let Cells::Words { words, .. } = &table.columns[branch].cells else { return false };
     ["up", "down"].iter().all(|way| words.iter().any(|word| word == way))

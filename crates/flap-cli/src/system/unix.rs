@@ -11,7 +11,7 @@ use signal_hook::flag;
 
 use crate::failure::Exit;
 
-/// Returns a flag that becomes true at the first signal SIGINT or SIGTERM. The second of these signals ends
+/// Returns a flag that becomes true at the first signal SIGINT or SIGTERM. A second SIGINT or SIGTERM ends
 /// the process at once.
 ///
 /// If the process ignores SIGINT or SIGTERM from its start, this signal remains ignored. Some shells start
@@ -43,7 +43,7 @@ fn is_ignored(signal: i32) -> bool {
 /// After this call, a write beyond the file size limit of the process (`ulimit -f`) returns an error and does
 /// not end the process.
 ///
-/// By default, such a write causes the signal SIGXFSZ, which ends the process.
+/// By default, a write beyond the limit causes the signal SIGXFSZ, which ends the process.
 pub(crate) fn refuse_large_files() {
     let _ = flag::register(SIGXFSZ, Arc::default());
 }

@@ -1,4 +1,5 @@
-//! Families of lines. The rows of a family of lines equal the rows of a sweep over the same grid.
+//! Rows for a family of lines in a chart. The rows equal the rows that `flap sweep` computes for the grid
+//! file of the chart.
 
 use flap_sweep::run::{self, RowWriter, Summary};
 
@@ -6,7 +7,7 @@ use super::context::AnswerContext;
 use crate::request::{FamilyRequest, Refused};
 use crate::rows::Rows;
 
-/// Computes the rows of a family of lines.
+/// Computes the rows for a family of lines in a chart.
 pub(crate) fn family(context: &AnswerContext<'_>, request: &FamilyRequest) -> Result<Rows, Refused> {
     let FamilyRequest { design, x, by } = request;
     let plan = context.opened.plan_of(&context.opened.grid(design, Some(x), by.as_ref())?)?;

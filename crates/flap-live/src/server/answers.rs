@@ -16,8 +16,8 @@ const POLICY: &str = "default-src 'none'; style-src 'unsafe-inline'; script-src 
                       connect-src 'self'; base-uri 'none'; form-action 'none'; \
                       frame-ancestors 'self' http://localhost:* http://127.0.0.1:* vscode-webview:";
 
-/// Headers of every answer. With these headers, browsers do not store the answer, do not guess its type, and do not
-/// pass on addresses with a token.
+/// Headers of every answer: browsers must not store the answer, guess its type, or pass on addresses with a
+/// token.
 const HEADERS: [(HeaderName, &str); 3] =
     [(CACHE_CONTROL, "no-store"), (X_CONTENT_TYPE_OPTIONS, "nosniff"), (REFERRER_POLICY, "no-referrer")];
 

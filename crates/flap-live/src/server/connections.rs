@@ -13,7 +13,8 @@ use tokio::task::spawn_local;
 use tokio::time::sleep;
 use tokio_io_timeout::TimeoutStream;
 
-/// Longest time to receive the head of a request, to receive the body of a request, and between two parts of an answer.
+/// Longest time for each step of a connection: to receive a request's head, to receive its body, and to send
+/// a part of the answer.
 pub(super) const STEP_TIMEOUT: Duration = Duration::from_secs(5);
 
 /// Largest number of connections at the same time. Further connections wait until a connection has ended.

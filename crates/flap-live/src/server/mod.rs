@@ -44,7 +44,7 @@ pub enum StartError {
     /// The operating system provides no threads or no random numbers.
     #[error("cannot start the server: {0}")]
     System(String),
-    /// The opened file has mistakes without its sections about points.
+    /// The opened file has mistakes after its sections about points are removed.
     #[error("the design is not valid without its points")]
     Design(Mistakes),
     /// A formula uses a value of the device, but the designs of the page start from the preset.
@@ -76,8 +76,8 @@ impl Server {
     /// Starts a server of the live page for the first design of `plan`. `models` contains the presets.
     ///
     /// # Errors
-    /// [`StartError`] if the port is in use, or if the system provides no threads. Also if the file has
-    /// mistakes without its sections about points, or if its formulas use values of its device.
+    /// [`StartError`] if the port is in use, or if the system provides no threads. Also if the opened file
+    /// has mistakes after its sections about points are removed, or if its formulas use values of its device.
     pub fn start(
         plan: Plan,
         models: &[&'static dyn Simulator],

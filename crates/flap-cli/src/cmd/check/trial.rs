@@ -34,8 +34,8 @@ const SMALLEST_ERROR: f64 = 0.1;
 /// A sample of points that are spread over a plan, and the measurements of their work.
 ///
 /// Until the last point of the sample is finished, flap runs more points, so that all lanes are full as in a
-/// sweep. Otherwise the slowest points of the sample would run alone, and the measured time per point would
-/// be too long.
+/// sweep. Without these additional points, the slowest points of the sample would run alone, and the measured
+/// time per point would be too long.
 pub(super) struct Trial<'a> {
     plan: &'a Plan,
     started: Instant,
@@ -44,7 +44,7 @@ pub(super) struct Trial<'a> {
     checked: u64,
     /// True if flap adds no more points to the sample.
     closed: bool,
-    /// Numbers of the sample's points that are not finished.
+    /// Points of the sample that are not finished, as numbers in the order in which flap checks the points.
     running: BTreeSet<u64>,
     /// The work of each finished point of the sample: the number of evaluations of the equations of motion,
     /// including evaluations for derivatives.
@@ -148,7 +148,7 @@ impl Trial<'_> {
         self.is_complete() || self.started.elapsed() >= LONGEST
     }
 
-    /// Returns the index in the plan of the point that flap checks as number `number`.
+    /// Returns the plan index of the point that flap checks after `number` earlier points.
     fn index(&self, number: u64) -> u64 {
         let points = self.plan.len();
         if points <= MOST as u64 { number % points } else { spread(number, points) }
@@ -182,15 +182,15 @@ impl Trial<'_> {
         None
     }
 
-    /// Closes the sample if it has enough points, if it contains all points of the plan, or if it took long
-    /// enough.
+    /// Closes the sample if it has enough points, if it contains all points of the plan, or if the time to
+    /// add points is over.
     fn close(&mut self) {
         self.closed |= self.works.len() + self.running.len() >= MOST
             || self.checked >= self.plan.len()
             || self.started.elapsed() >= LONGEST_BEGIN;
     }
 
-    /// Records the row of the finished point `point`, which flap checked as number `number`.
+    /// Records the row of the finished point `point`, which flap checked after `number` earlier points.
     fn done(&mut self, number: u64, point: &Point, row: Row) {
         let work = row.rhs_evals as f64;
         self.done += 1;
@@ -321,8 +321,8 @@ mod tests {
         assert!(with > 1.1 * without, "{with} {without}");
     }
 
-    /// The estimated time is the work of the sweep divided by the speed of the sample. Each unfinished point
-    /// of the sample counts as half of the mean work.
+    /// The estimated time is the work of the sweep divided by the speed of the sample. In the speed of the
+    /// sample, each unfinished point counts as half of the mean work of the finished points.
     #[test]
     fn seconds_are_the_work_of_the_sweep_over_the_speed_of_the_sample() {
         let grid = "preset = \"ozaki2018-large\"\n[axes]\ndrive_frequency = [95, 105]\n";

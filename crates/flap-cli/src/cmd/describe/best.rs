@@ -36,7 +36,7 @@ pub(super) struct Axis {
     /// The value of the axis in the best row.
     pub(super) best: Value,
     /// The smallest and the largest value in the best tenth of the rows. If the values are words, the list
-    /// contains all words in these rows.
+    /// contains all words in the best tenth of the rows.
     pub(super) best_tenth: Vec<Value>,
     /// True if the value in the best row is at an end of the axis, and the axis has three or more different
     /// numbers. Always false for parameters of a sample.
@@ -76,8 +76,8 @@ impl Best {
     }
 }
 
-/// Returns the index of the point or response curve in the first column. If the first column contains no
-/// index, returns the number of the row in the file.
+/// Returns the row's cell in the first column if this column contains the index of the point or of the
+/// response curve. Otherwise returns the number of the row in the file.
 fn point(table: &Table, row: usize, row_numbers: &[u64]) -> u64 {
     let first = &table.columns[0];
     let indices = table.numbers(0).ok().filter(|_| ["point", "curve"].contains(&first.name.as_str()));
@@ -88,7 +88,7 @@ fn point(table: &Table, row: usize, row_numbers: &[u64]) -> u64 {
 impl Axis {
     /// Returns the values of an axis in all rows of the table and in the best rows.
     ///
-    /// `best` contains the positions in the table of the best tenth of the rows, beginning with the best row.
+    /// `best` contains the table positions of the best tenth of the rows, beginning with the best row.
     fn of(table: &Table, column: usize, best: &[usize], sampled: bool) -> Axis {
         let rows: Vec<usize> = (0..table.rows).collect();
         let levels = Levels::of(table, column, &rows);

@@ -17,7 +17,7 @@ pub(super) struct Description {
     pub(super) best: Vec<Best>,
 }
 
-/// The number of rows with one of the statuses.
+/// A status, and the number of rows with this status.
 #[derive(Serialize)]
 pub(super) struct Count {
     pub(super) status: String,

@@ -24,8 +24,8 @@ pub(super) fn run(args: &NewArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Returns a varied parameter with its value in the printed device. This is the value before the axes are
-/// applied, or the value in the first of several listed devices.
+/// Returns a varied parameter with its value in the printed device. The printed device does not use the axes
+/// of the grid file, and uses the first of several listed devices.
 fn before_axes(plan: &Plan, index: usize) -> String {
     let parameter = &plan.parameters()[index];
     let value = match (plan.base()[index], plan.in_designs(index)) {

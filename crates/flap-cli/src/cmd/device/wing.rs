@@ -15,8 +15,8 @@ use crate::failure::{Exit, Failure};
 /// Density of air (kg/m³) for models that have no parameter for the density of air.
 const AIR_DENSITY: f64 = 1.2;
 
-/// Relative difference between the area of the chord table and the area of the outline above which flap
-/// prints a note.
+/// If the area of the chord table and the area of the outline differ by more than this fraction, flap prints
+/// a note.
 const CLOSE: f64 = 5e-3;
 
 pub(super) fn run(args: &WingArgs) -> Result<Exit, Failure> {

@@ -212,8 +212,7 @@ fn columns(model: &dyn Simulator) -> Vec<Entry> {
     measures.chain(run).collect()
 }
 
-/// Mark after a value that was fitted to one vehicle. The next constant is the explanation of the mark below
-/// the list.
+/// Mark after a value that was fitted to one vehicle. The constant `FITS` explains the mark below the list.
 const FIT: &str = " *";
 const FITS: &str = "* This value was fitted to one vehicle. Measure or fit it for other vehicles.";
 

@@ -14,7 +14,7 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, assignment};
 
-/// Prints the basins of attraction of each design of a plan that follows a parameter.
+/// Prints the basins of attraction of each design in the plan of `flap respond`.
 pub(super) fn run(plan: &Plan, starts: Starts, args: &RespondArgs) -> Result<Exit, Failure> {
     let Some((along, responses)) = plan.followed().zip(Responses::of(plan)) else {
         return Err(Failure::Bug("the plan follows no parameter".to_owned()));
@@ -48,7 +48,7 @@ pub(super) fn run(plan: &Plan, starts: Starts, args: &RespondArgs) -> Result<Exi
     Ok(Exit::Done)
 }
 
-/// Returns the values of the varied parameters in a design and a colon, as the beginning of a line. Empty
+/// Returns the beginning of a printed line: the design's values of the varied parameters, and a colon. Empty
 /// without varied parameters.
 pub(super) fn design(plan: &Plan, curve: &Curve) -> String {
     let varied = plan.axes().varied();

@@ -19,7 +19,7 @@ use crate::table::{Table, assignment, six_digits};
 /// The measure that the table for a terminal shows at each point of an edge.
 const STROKE: &str = "stroke_pp_deg";
 
-/// Prints the edges of hysteresis of each design of a plan that follows a parameter.
+/// Prints the edges of hysteresis of each design in the plan of `flap respond`.
 pub(super) fn run(plan: &Plan, second: &EdgeRange, args: &RespondArgs) -> Result<Exit, Failure> {
     let Some((along, responses)) = plan.followed().zip(Responses::of(plan)) else {
         return Err(Failure::Bug("the plan follows no parameter".to_owned()));

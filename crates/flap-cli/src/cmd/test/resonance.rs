@@ -16,12 +16,12 @@ use crate::table::{Table, six_digits};
 /// Number of samples of the free motion per period of the first mode.
 const SAMPLES: u32 = 200;
 
-/// Residual of the fitted damped sine above which flap prints a note, as a fraction of the stroke (root mean
-/// square).
+/// flap prints a note if the residual of the fitted damped sine is larger than this fraction of the stroke
+/// (root mean squares).
 const POOR_FIT: f64 = 0.1;
 
-/// Height of the second peak of the settled stroke, divided by the highest peak, at or above which flap
-/// prints a note.
+/// flap prints a note if the second peak of the settled stroke has at least this fraction of the height of
+/// the highest peak.
 const RIVAL: f64 = 0.95;
 
 pub(super) fn run(args: &ResonanceArgs) -> Result<Exit, Failure> {

@@ -23,8 +23,8 @@ use crate::table::{Table, four_digits, six_digits};
 /// Parameter that determines whether the motion of the wings changes when the body moves.
 const RESPONSE: &str = "body_response";
 
-/// An entry of the damping matrix counts as zero below this fraction of the largest entries in its row and in
-/// its column.
+/// A small entry of the damping matrix is a rounding error and counts as zero. The limit is this fraction of
+/// the smaller of two numbers: the largest entry in the row, and the largest entry in the column.
 const ROUNDING: f64 = 1e-12;
 
 /// Checks the name of the file for `--export` before any computation. Returns the name and the format that

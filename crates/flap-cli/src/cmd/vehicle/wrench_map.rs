@@ -25,7 +25,8 @@ use crate::table::{Table, six_digits};
 /// Units of the components of force and torque.
 const UNITS: [&str; 6] = ["mN", "mN", "mN", "uN*m", "uN*m", "uN*m"];
 
-/// First columns of the map in csv. The columns of the force and torque components are after these columns.
+/// First columns of the map in csv. After these columns, the map has one column for each component of force
+/// and torque.
 const NAMES: [&str; 6] = ["section", "name", "unit", "from", "to", "count"];
 
 pub(super) fn run(args: &VehicleArgs, chosen: &Chosen, vehicle: &Vehicle) -> Result<Exit, Failure> {

@@ -60,8 +60,8 @@ impl Entry {
         vec![name.clone(), format!("{what}{rest}"), models.join(", "), lines.join("\n")]
     }
 
-    /// Adds the entry to `others`. If `others` contains an entry with the same name and meaning, the function
-    /// adds the models to this entry.
+    /// Adds the entry to `others`. If `others` already contains this name with this meaning, the function
+    /// adds only the models.
     pub(super) fn add(self, others: &mut Vec<Entry>) {
         let same = |other: &&mut Entry| {
             (&other.name, &other.what, &other.rest, &other.text)
