@@ -87,7 +87,7 @@ pub(crate) enum Command {
     Check(CheckArgs),
     /// List the best rows of results
     Top(TopArgs),
-    /// Summarize results: statuses, percentiles, and the best value of each axis
+    /// Summarize results: statuses, percentiles, and the values of the axes in the best rows
     Describe(DescribeArgs),
     /// Draw results as a picture, or write a page on which you explore the results in a browser
     #[cfg(feature = "plots")]

@@ -123,7 +123,8 @@ fn each_parameter(candidates: impl Fn(&Parameter) -> Vec<CompletionCandidate>) -
 
 /// Returns the names of the columns in the first result file on the command line.
 ///
-/// If the command line contains no result file, returns the columns of a sweep with the mentioned models.
+/// If the command line contains no result file, returns the columns of a sweep with the models on the command
+/// line.
 fn columns() -> Vec<CompletionCandidate> {
     if let Some(names) = words().find_map(|word| columns_of(&word)) {
         return names.iter().map(|name| candidate(name, "")).collect();

@@ -37,8 +37,8 @@ pub struct FreeMotion {
     pub stroke_rate: f64,
     /// Best fit of a damped sine to the signal that the impulse excites, if a damped sine fits.
     pub fit: Option<DampedSine>,
-    /// Highest peaks of the spectra of the model's [free signals](Experiments::free_signals), with the signals'
-    /// names.
+    /// Names of the model's [free signals](Experiments::free_signals), each with the highest peaks of its
+    /// spectrum.
     pub spectra: Vec<(&'static str, Vec<SpectrumPeak>)>,
 }
 

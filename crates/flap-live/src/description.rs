@@ -189,7 +189,7 @@ struct Slider {
     log: bool,
     /// The smallest and the largest allowed value, if the range of the parameter has two limits.
     limits: Option<[f64; 2]>,
-    /// The typical size of values, which determines the shown unit.
+    /// The typical size of the parameter's values. The page shows the values in a unit that suits this size.
     typical: f64,
 }
 

@@ -60,8 +60,8 @@ pub(crate) struct MotionRequest {
     #[serde(default)]
     pub(crate) design: Design,
     pub(crate) samples: u32,
-    /// The state at the beginning of the period, from the answer to a [`HysteresisRequest`]. Without this state, the
-    /// motion settles from rest.
+    /// The state at the beginning of the period, from the answer to a [`HysteresisRequest`]. If the request
+    /// contains no state, the motion starts from rest.
     pub(crate) begin: Option<Vec<f64>>,
 }
 

@@ -57,8 +57,8 @@ pub(crate) struct PlotArgs {
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 
-    /// Axis over which flap chooses the best row. Each cell of a map, or each point of a line, shows the best
-    /// of the rows at all values of this axis. You can repeat --best-over
+    /// Axis over which flap chooses the best row. For each cell of a map or point of a line, flap draws the
+    /// best of the rows at all values of the axis. You can repeat --best-over
     ///
     /// The best row is the row with the largest value of the drawn measure. For power, current, strain,
     /// field, drag, force_1, force_2 and hover_growth_1_s, the best row has the smallest value. With --where,
@@ -165,7 +165,7 @@ impl PictureKind {
 /// The size of a picture: width and height.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum PictureSize {
-    /// Width and height in pixels. A PNG has twice as many pixels in each direction.
+    /// Width and height in pixels. A PNG has twice the given number of pixels in each direction.
     Pixels([u16; 2]),
     /// Width and height on paper (mm).
     Print([f64; 2]),

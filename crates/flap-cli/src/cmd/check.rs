@@ -213,7 +213,7 @@ fn deviations(plan: &Plan) -> String {
 }
 
 /// Returns a text about parameters that are constant although they usually change with a varied parameter.
-/// The text proposes a formula for each of these parameters. The text is empty if `linked` is empty.
+/// The text proposes a formula for each constant parameter. The text is empty if `linked` is empty.
 fn links(linked: &[Linked<'_>]) -> String {
     if linked.is_empty() {
         return String::new();
@@ -289,7 +289,7 @@ const MOST_COUNTED: u64 = 1_000_000;
 struct Excluded {
     /// A text about the number of excluded points. The text is empty for a grid without conditions.
     line: String,
-    /// Number of points that a sweep of the grid runs. For a large grid, the number is approximate.
+    /// Number of points that a sweep of the grid runs. For a large grid, the number of points is approximate.
     runs: u64,
 }
 

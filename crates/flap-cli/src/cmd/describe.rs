@@ -1,4 +1,4 @@
-//! `flap describe`: statuses, percentiles, and the best values of axes.
+//! `flap describe`: counts of statuses, percentiles of measures, and the values of the axes in the best rows.
 
 mod best;
 mod description;

@@ -87,8 +87,8 @@ impl Sink for NoOutput {
     }
 }
 
-/// Returns the plan, and the followed parameter with its values. The values come from the command line or
-/// from an axis of the grid file.
+/// Returns the plan, and the values of the followed parameter, which rises and falls. The values come from
+/// the command line or from an axis of the grid file.
 fn along(args: &RespondArgs, plan: Plan) -> Result<(Plan, Along), Failure> {
     let index = point::find_parameter(plan.parameters(), &args.along)?;
     let parameter = &plan.parameters()[index];

@@ -284,7 +284,7 @@ fn cells(chosen: &Chosen, row: &Row) -> Vec<Vec<String>> {
 }
 
 /// Returns the status of a row and numbers about its computation, such as `cycles`, with the names of their
-/// columns. A number that the row does not have is empty.
+/// columns. If the row does not have one of the numbers, the cell for this number is empty.
 fn run_values(row: &Row, number: fn(f64) -> String) -> [(&'static str, String); 8] {
     let number = |value: f64| if value.is_nan() { String::new() } else { number(value) };
     [

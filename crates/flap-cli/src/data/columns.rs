@@ -8,8 +8,8 @@ use crate::failure::Failure;
 /// Columns of a results file. Only the columns that the command needs have cells.
 pub(crate) struct Table {
     pub(crate) columns: Vec<Column>,
-    /// Number of rows in this table. This number is smaller than `of` if flap keeps only some rows of a large
-    /// file.
+    /// Number of rows in this table. The number of rows is smaller than `of` if flap keeps only some rows of
+    /// a large file.
     pub(crate) rows: usize,
     /// Number of rows in the file that satisfy the conditions.
     pub(crate) of: usize,

@@ -60,8 +60,8 @@ impl TextColumn {
         TextColumn { column, name: name.to_owned(), words: RefCell::default() }
     }
 
-    /// Returns the index in `wanted` of the word that the row contains. If `wanted` does not contain this
-    /// word, returns the length of `wanted`.
+    /// Returns the index in `wanted` of the word that the row contains. If `wanted` does not contain the word
+    /// of the row, returns the length of `wanted`.
     fn place(&self, row: &StringRecord, wanted: &[impl AsRef<str>]) -> usize {
         let word = cell(row, self.column);
         let mut words = self.words.borrow_mut();

@@ -40,7 +40,8 @@ impl Value {
 }
 
 impl Levels {
-    /// Returns the distinct values of the column in the given rows. All empty cells count as one value, which is last.
+    /// Returns the distinct values of the column in the given rows. All empty cells count as one value, the
+    /// last in the list.
     pub(crate) fn of(table: &Table, column: usize, rows: &[usize]) -> Levels {
         match &table.columns[column].cells {
             Cells::Numbers(values) => {

@@ -68,8 +68,8 @@ pub(super) fn ending(path: &Path) -> String {
     path.extension().and_then(|ending| ending.to_str()).unwrap_or_default().to_ascii_lowercase()
 }
 
-/// Largest number of pixels of a picture at double size. Larger pictures are drawn at single size and not
-/// averaged.
+/// Pictures are drawn at double size and then averaged, unless the double size has more pixels than this
+/// number.
 const MOST_PIXELS: f64 = 1e8;
 
 /// Returns the bytes of a picture in the format PNG.
@@ -229,8 +229,8 @@ fn dashes(element: Primitive) -> Vec<Primitive> {
     pieces.into_iter().map(line).collect()
 }
 
-/// Removes the rotated text from `scene`. Returns a new scene that contains this text without rotation. The
-/// width of the new scene is the height of `scene`.
+/// Removes the rotated text from `scene`. Returns a new scene that contains the removed text without
+/// rotation. The width of the new scene is the height of `scene`.
 ///
 /// The drawing library draws rotated letters bold and without smooth edges, so flap rotates the drawn text
 /// itself. A quarter turn of the new scene to the left moves the text to its position.

@@ -32,7 +32,8 @@ struct Curve {
     compared: Comparison,
 }
 
-/// A jump of the motion from one stable branch to the other stable branch, which is drawn as an arrow.
+/// A jump of the motion from one stable branch to the other stable branch. The picture shows the jump as an
+/// arrow.
 struct Jump {
     x: f64,
     from: f64,

@@ -204,8 +204,8 @@ fn grid(table: &Table, selection: &Selection, color: usize) -> Result<Grid, Fail
 /// Returns the cells of a map for points that form curves. Each curve extends along the first of `columns`
 /// and has one value of the second column.
 ///
-/// The values of the first column differ from curve to curve in results of `flap respond`, and if the sweep
-/// refined only the first column. The boundaries of the cells are halfway between the values of a curve.
+/// Different curves have different values of the first column in results of `flap respond`, and in sweeps
+/// that refine only the first column. The boundaries of the cells are halfway between the values of a curve.
 fn curves(table: &Table, selection: &Selection, columns: [usize; 2], color: usize) -> Result<Grid, Failure> {
     let [along, across] = columns;
     let side = side(table, selection, across)?;

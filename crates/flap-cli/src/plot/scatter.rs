@@ -51,8 +51,8 @@ pub(super) fn draw(table: &Table, selection: &Selection, size: Size) -> Result<S
     Ok(scene)
 }
 
-/// Largest number of points that a picture shows. All points on a Pareto front are drawn in addition to this
-/// number.
+/// Largest number of points that a picture shows. All points on a Pareto front are drawn, even if the picture
+/// then shows more points.
 const MOST_POINTS: usize = 20_000;
 
 /// The radius of points that are not coloured by a column.

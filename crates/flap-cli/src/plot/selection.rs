@@ -14,7 +14,7 @@ use crate::failure::Failure;
 /// The columns and rows that a picture shows, with the title and the notes.
 pub(super) struct Selection {
     pub(super) columns: Columns,
-    /// The directions in which x and y are better.
+    /// For each of the columns x and y, whether larger or smaller values are better.
     pub(super) aims: (Aim, Aim),
     pub(super) rows: Vec<usize>,
     /// The columns of all parameters. Sampled parameters are first.
@@ -97,8 +97,8 @@ fn check_best_over(request: &Request, hidden: &[usize]) -> Result<(), Failure> {
     }))
 }
 
-/// Returns, for each position of the picture, the row with the best measure. Also prints the best value of
-/// the measure in the whole picture, with the values of the axes.
+/// Returns, for each position of the picture, the row with the best value of the measure. Also prints the
+/// best value of the measure in the whole picture, with the values of the axes.
 fn best(
     request: &Request,
     table: &Table,
@@ -134,7 +134,8 @@ fn has_both_ways(table: &Table, branch: usize) -> bool {
 /// Returns an error if a column contains numbers so large that the margins and ticks of an axis would exceed
 /// the range of floating-point numbers.
 fn check_span(table: &Table, columns: &Columns, rows: &[usize]) -> Result<(), Failure> {
-    /// Largest allowed magnitude of a number. Margins and ticks of an axis may be several times larger.
+    /// Largest allowed magnitude of a number. Margins and ticks of an axis may be several times larger than
+    /// this magnitude.
     const LARGEST: f64 = f64::MAX / 16.0;
     for column in [Some(columns.x), Some(columns.y), columns.color].into_iter().flatten() {
         let Cells::Numbers(values) = &table.columns[column].cells else { continue };
@@ -158,7 +159,7 @@ fn shown(table: &Table, column: usize, typed: &str) -> String {
     }
 }
 
-/// Returns the directions in which x and y are better.
+/// Returns, for each of the columns x and y, whether larger or smaller values are better.
 pub(super) fn aims(request: &Request, columns: &Columns) -> (Aim, Aim) {
     let aim = |asked: Option<Aim>, column: usize| asked.unwrap_or_else(|| Aim::of(request.name(column)));
     (aim(request.args.x_aim, columns.x), aim(request.args.y_aim, columns.y))

@@ -21,8 +21,8 @@ impl Shades {
         Shades { range }
     }
 
-    /// Returns true if the range contains negative and positive numbers. The middle of the colour map is then
-    /// zero.
+    /// Returns true if the range contains negative and positive numbers, so that zero is in the middle of the
+    /// colour map.
     pub(super) fn is_signed(&self) -> bool {
         is_signed(self.range.0, self.range.1)
     }
@@ -40,8 +40,8 @@ impl Shades {
     }
 }
 
-/// Returns a label and a font size that fit into a length. If necessary, the size is smaller than the `usual`
-/// size, or the label is shortened.
+/// Returns a label and a font size that fit into a length. If the label does not fit at the `usual` size, the
+/// font is smaller or the label is shortened.
 fn fitting(label: &str, length: f64, usual: u32) -> (String, u32) {
     const SMALLEST: u32 = 10;
     let fits = |letters: usize, size: u32| letters as f64 * f64::from(size) * LETTER <= length;

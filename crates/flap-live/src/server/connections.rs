@@ -17,7 +17,8 @@ use tokio_io_timeout::TimeoutStream;
 /// a part of the answer.
 pub(super) const STEP_TIMEOUT: Duration = Duration::from_secs(5);
 
-/// Largest number of connections at the same time. Further connections wait until a connection has ended.
+/// Largest number of connections at the same time. Additional connections wait until an open connection has
+/// ended.
 const MOST_CONNECTIONS: usize = 128;
 
 /// Pause after a connection that could not be accepted, for example because too many files are open.

@@ -20,12 +20,12 @@ pub(super) struct Estimate {
     pub(super) seconds: Option<[f64; 2]>,
     /// Size of the rows as CSV (bytes). `None` if no point was run.
     pub(super) bytes: Option<f64>,
-    /// True if flap finished all points of the sample. Otherwise flap prints only the lower bound of the
-    /// time.
+    /// True if flap finished all points of the sample. If some points of the sample are not finished, flap
+    /// prints only the lower bound of the time.
     is_complete: bool,
     /// Number of threads.
     pub(super) threads: usize,
-    /// Number of points that flap ran, or found invalid, for the estimates.
+    /// Number of points that flap computed, or found invalid, for the estimates.
     pub(super) tried: usize,
     /// The limit `max_points` of a refined grid.
     most_points: Option<u64>,
@@ -56,8 +56,8 @@ fn size(bytes: f64) -> String {
     if number < 9.95 && length > 1.0 { format!("{number:.1} {name}") } else { format!("{number:.0} {name}") }
 }
 
-/// Estimates the time of a sweep of `points` points on `threads` threads, or on one thread per core. For this
-/// estimate, the function runs some points of `plan`.
+/// Estimates the time of a sweep of `points` points on `threads` threads, or on one thread per core. The
+/// function computes some points of `plan` for the estimate.
 ///
 /// The estimate of a whole plan includes all points that the refinement of the plan may add. A refinement
 /// adds no points to a shard.

@@ -20,8 +20,8 @@ const MOST: usize = 256;
 /// Time after which flap adds no further point to the sample, measured from the start of the sample.
 const LONGEST_BEGIN: Duration = Duration::from_secs(1);
 
-/// Time limit of the sample, measured from its start. At this limit, flap abandons the points that are not
-/// finished.
+/// Time limit of the sample, measured from its start. When the time is over, flap abandons the points of the
+/// sample that are not finished.
 const LONGEST: Duration = Duration::from_secs(2);
 
 /// Largest number of points that flap checks to find points that are not excluded.
@@ -39,7 +39,7 @@ const SMALLEST_ERROR: f64 = 0.1;
 pub(super) struct Trial<'a> {
     plan: &'a Plan,
     started: Instant,
-    /// The time from the start to the end of the sample.
+    /// The time that the computation of the whole sample took.
     took: Duration,
     checked: u64,
     /// True if flap adds no more points to the sample.
@@ -98,7 +98,7 @@ impl Trial<'_> {
         trial
     }
 
-    /// Returns the number of points of the sample that were run or are invalid.
+    /// Returns the number of points of the sample that were computed or are invalid.
     pub(super) fn tried(&self) -> usize {
         self.works.len()
     }
@@ -139,7 +139,7 @@ impl Trial<'_> {
         (self.written > 0).then(|| self.rows.target().len() as f64 / self.written as f64)
     }
 
-    /// Returns true if the sample is closed and all its points are finished.
+    /// Returns true if flap adds no more points to the sample and all its points are finished.
     pub(super) fn is_complete(&self) -> bool {
         self.closed && self.running.is_empty()
     }
@@ -182,8 +182,8 @@ impl Trial<'_> {
         None
     }
 
-    /// Closes the sample if it has enough points, if it contains all points of the plan, or if the time to
-    /// add points is over.
+    /// Closes the sample to more points if it is large enough, if it contains the whole plan, or if the time
+    /// limit has passed.
     fn close(&mut self) {
         self.closed |= self.works.len() + self.running.len() >= MOST
             || self.checked >= self.plan.len()

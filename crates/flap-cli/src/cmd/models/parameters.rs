@@ -18,7 +18,8 @@ use crate::models;
 use crate::print;
 use crate::table::{Table, wrapped};
 
-/// Returns true if `what` is the name of a model, a preset or a file. For these names, flap lists parameters.
+/// Returns true if `what` is the name of a model, a preset or a file. For a model, a preset or a file, flap
+/// lists parameters.
 pub(super) fn is_listed(what: &str) -> bool {
     let path = Path::new(what);
     models::preset(what).is_some()
@@ -117,7 +118,7 @@ struct Entry {
     /// Value of a parameter in the preset or file, in SI units. Empty without a value.
     value: String,
     /// Value with a unit prefix and the standard error, such as `1.52 uN*m/rad ± 0.05 uN*m/rad`. If the list
-    /// contains no values, only the unit.
+    /// contains no values, the text is only the unit.
     shown: String,
     unit: &'static str,
     symbol: &'static str,

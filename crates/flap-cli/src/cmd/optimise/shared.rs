@@ -13,8 +13,8 @@ use crate::failure::Failure;
 use crate::progress::Bar;
 use crate::system;
 
-/// Returns the failure for a mistake in the plan, in a goal or in a condition. If `is_smallest` is true, a
-/// mistake in the goal is in `--minimise`, otherwise in `--maximise`.
+/// Returns the failure for a mistake in the plan, in a goal or in a condition. If `is_smallest` is true, the
+/// goal is the value of `--minimise`, otherwise the value of `--maximise`.
 pub(super) fn refused(args: &OptimiseArgs, is_smallest: bool, error: &ProblemError) -> Failure {
     let goal = |goal: &Option<String>| goal.clone().unwrap_or_default();
     let place = match error.part {
@@ -37,8 +37,9 @@ pub(super) fn settings(args: &OptimiseArgs) -> Settings {
     }
 }
 
-/// Runs `work` with a progress bar that counts `units`, and returns its result. A signal such as Ctrl-C stops
-/// `work`. `work` returns `None` if a signal stopped it, or if no computed point has a periodic motion.
+/// Runs `work` with a progress bar that counts `units`, and returns the result of `work`. A signal such as
+/// Ctrl-C stops `work`. `work` returns `None` if a signal stopped it, or if no computed point has a periodic
+/// motion.
 pub(super) fn watched<T, E>(
     args: &OptimiseArgs,
     units: &'static str,

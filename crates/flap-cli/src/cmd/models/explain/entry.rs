@@ -12,7 +12,8 @@ pub(super) struct Entry {
     pub(super) name: String,
     /// The kind of the name, such as `a measure` or `a column of motions`.
     what: String,
-    /// The models in which the name has this meaning. Empty if the name has the same meaning in all models.
+    /// The models in which the name has the meaning of this entry. Empty if the name has the same meaning in
+    /// all models.
     models: Vec<&'static str>,
     /// Text that flap prints after the list of models.
     rest: String,
