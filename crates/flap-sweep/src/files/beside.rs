@@ -1,4 +1,4 @@
-//! Names of the files beside a result file.
+//! Names of the files that flap writes beside a result file, such as the sidecar.
 
 use std::path::{Path, PathBuf};
 
@@ -26,8 +26,8 @@ pub fn lock_of(results: &Path) -> PathBuf {
     with_ending(&disk::target(results), ".lock")
 }
 
-/// Returns the path of the file that contains the rows of unfinished results. For Parquet, this file is
-/// [`part_of`].
+/// Returns the path of the file that contains the rows of unfinished results. For a Parquet file, this is the
+/// path that [`part_of`] returns.
 pub fn rows_of(results: &Path, format: Format) -> PathBuf {
     if format.is_columnar() { part_of(results) } else { results.to_owned() }
 }

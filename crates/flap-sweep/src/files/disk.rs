@@ -58,8 +58,8 @@ impl Whole {
     }
 }
 
-/// Returns true if the name `path` is free: no file has this name, or the file with this name is empty. The
-/// name of a link is not free.
+/// Returns true if the name `path` is free: no file has this name, or the file with this name is empty. If a
+/// link has this name, the result is false.
 pub(crate) fn is_free(path: &Path) -> bool {
     match fs::symlink_metadata(path) {
         Ok(metadata) => metadata.is_file() && metadata.len() == 0,
@@ -96,8 +96,8 @@ pub(crate) fn rename(from: &Path, to: &Path) -> io::Result<()> {
     sync_folder(to)
 }
 
-/// Returns true if a file, a folder or a link has the name `path`. A link counts even if its target does not
-/// exist.
+/// Returns true if a file, a folder or a link has the name `path`. For a link, the result is true even if the
+/// target of the link does not exist.
 pub(crate) fn is_taken(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
@@ -105,8 +105,8 @@ pub(crate) fn is_taken(path: &Path) -> bool {
 /// Largest number of symbolic links that [`target`] follows one after the other. Linux has the same limit.
 const MOST_LINKS: usize = 40;
 
-/// Returns the target of a symbolic link. The target need not exist. A path that is not a link is returned
-/// unchanged.
+/// Returns the target of a symbolic link. The target of the link need not exist. A path that is not a link is
+/// returned unchanged.
 pub fn target(path: &Path) -> PathBuf {
     let mut target = path.to_owned();
     for _ in 0..MOST_LINKS {

@@ -37,7 +37,8 @@ impl Inputs {
         self
     }
 
-    /// Adds a result file and the files that flap stores beside the result file, such as the sidecar.
+    /// Adds a result file to the input files, together with the files beside the result file, such as the
+    /// sidecar.
     pub fn add_results(&mut self, what: &'static str, path: &Path) -> &mut Inputs {
         self.add(what, path);
         for beside in beside::all_of(path) {
@@ -46,7 +47,8 @@ impl Inputs {
         self
     }
 
-    /// Adds the grid file, the devices and the file of points from which `plan` was read.
+    /// Adds the files from which `plan` was read to the input files: the grid file, the devices and the file
+    /// of points.
     pub fn add_plan(&mut self, plan: &Plan) -> &mut Inputs {
         // The plan of a preset has the preset's name and no file.
         if plan.source().name != plan.preset() {
@@ -62,8 +64,8 @@ impl Inputs {
     }
 
     /// Checks that a job with the result file `output` overwrites no input file. The function applies
-    /// [`Inputs::protect`] to the result file, to its replacement, and to the files that flap stores beside
-    /// these two files.
+    /// [`Inputs::protect`] to `output`, to the path of new results that will replace `output`, and to the
+    /// files beside these two paths.
     ///
     /// # Errors
     /// Returns an [`Overlap`] with the first input file that would be overwritten.

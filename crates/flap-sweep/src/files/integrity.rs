@@ -32,7 +32,7 @@ pub enum OnDamage {
 }
 
 /// Largest number of ranges of damaged rows that a message lists. If there are more ranges, the message
-/// contains the number of further ranges.
+/// contains the number of the ranges that are not listed.
 const MOST_LISTED: usize = 5;
 
 /// Differences between a result file and the contents that flap wrote into the file.
@@ -98,8 +98,8 @@ pub fn foreign_sidecar(differences: &[String]) -> String {
     format!("its sidecar belongs to another sweep: {}", differences.join("; "))
 }
 
-/// Returns the ranges of rows in blocks whose checksums differ. Rows are counted from 1, and `last` is the
-/// number of the last row.
+/// Returns the ranges of rows in blocks whose checksum in `found` differs from the checksum in `written`.
+/// Rows are counted from 1, and `last` is the number of the last row.
 ///
 /// A range contains whole blocks, although perhaps only one row of a block has changed. If a row was removed
 /// or added, all later rows count as changed.
@@ -426,7 +426,7 @@ pub enum Integrity {
         /// Number of finished points, if the number is known.
         done: Option<u64>,
     },
-    /// The results cannot be checked. The variant contains the reason.
+    /// The results cannot be checked. The text is the reason.
     Unverified(&'static str),
     /// Another program has changed the results.
     Damaged(Damage),

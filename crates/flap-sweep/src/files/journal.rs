@@ -28,7 +28,7 @@ const FORMAT: u32 = 1;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     format: u32,
-    /// Start time of the first session, as RFC 3339 in UTC.
+    /// Time at which the sweep was first started, in the format of RFC 3339 and in UTC.
     pub started: String,
     /// True if the new results replace earlier results. The earlier results are kept until the new results
     /// are complete.
@@ -48,9 +48,9 @@ impl Header {
 /// checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
-    /// Time that all sessions of the sweep have taken together, in seconds.
+    /// Total running time of the sweep in seconds, without the time of interruptions.
     pub seconds: f64,
-    /// Number and checksum of all bytes before the checkpoint in the file of rows.
+    /// Number and checksum of the bytes that the file of rows contained at the checkpoint.
     pub file: FileSum,
     /// Summary of the rows before the checkpoint.
     pub summary: Summary,
@@ -165,18 +165,18 @@ impl Journal {
     }
 }
 
-/// The last checkpoint for which all rows are in the file of rows.
+/// The last checkpoint whose rows are all in the file of rows.
 pub(crate) struct IntactRows {
     pub(crate) checkpoint: Checkpoint,
     /// Number of bytes from the beginning of the journal to the end of the checkpoint's line.
     pub(crate) journal_bytes: u64,
-    /// Hash of all bytes before the checkpoint in the file of rows.
+    /// Hash of the bytes that the file of rows contained at the checkpoint.
     pub(crate) hash: Xxh3Default,
     /// Number of rows that later checkpoints count, but that are missing in the file of rows.
     pub(crate) lost: u64,
 }
 
-/// Returns the last checkpoint in `journal` for which all rows are in `file`. Returns `None` if the bytes in
+/// Returns the last checkpoint in `journal` whose rows are all in `file`. Returns `None` if the bytes in
 /// `file` differ from the bytes that the run wrote.
 pub(crate) fn last_intact(mut file: &File, journal: &JournalContents) -> io::Result<Option<IntactRows>> {
     let mut hash = Xxh3Default::new();

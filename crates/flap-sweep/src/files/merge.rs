@@ -64,7 +64,7 @@ pub enum OnBuilds {
 
 /// Checks that `parts` contains every shard of one sweep exactly once, and that every shard is complete.
 ///
-/// The check computes no rows, so a different build of flap may have computed the shards.
+/// The check computes no rows, so the build of flap that computed the shards may differ from this build.
 ///
 /// # Errors
 /// - [`MergeError::Parts`] with all mistakes.
@@ -162,8 +162,8 @@ pub fn sidecar(parts: &[Part]) -> Option<Sidecar> {
 /// Writes the rows of all `parts` into the file `to`, in the order of the points.
 ///
 /// `parts` must have passed [`check`]. `whole` is the result of [`sidecar`] for all `parts`. `readers`
-/// contains one reader for each part, in the order of `parts`. A tolerant reader leaves out rows that are not
-/// rows of its shard.
+/// contains one reader for each part, in the order of `parts`. A tolerant reader leaves out rows that do not
+/// belong to the shard.
 ///
 /// # Errors
 /// - [`MergeError::Read`] if a shard cannot be read, or does not contain the rows that its sidecar records.

@@ -22,8 +22,7 @@ pub enum CreateError {
     /// The file is the unfinished result of an interrupted sweep.
     #[error("{} is the unfinished result of an interrupted sweep", .0.display())]
     Unfinished(PathBuf),
-    /// A file exists that flap would overwrite when it writes its files beside the results, such as the
-    /// sidecar.
+    /// flap would overwrite an existing file when it writes a file beside the results, such as the sidecar.
     #[error("{} exists already: writing {} would overwrite it", path.display(), results.display())]
     InTheWay {
         /// The file.
@@ -64,7 +63,8 @@ impl CreateError {
 ///
 /// # Errors
 /// - [`CreateError::Exists`] if the file has contents and `overwrite` is false.
-/// - [`CreateError::Unfinished`] if the file or its replacement has a journal and `overwrite` is false.
+/// - [`CreateError::Unfinished`] if `overwrite` is false and there is a journal, either of the file or of a
+///   new file that will replace the file.
 /// - [`CreateError::InTheWay`] if a file of another program has the name of the sidecar or of the lock file.
 ///   If `overwrite` is false, an existing sidecar is an error too, unless a run that was killed before its
 ///   first row has left it.
@@ -154,7 +154,8 @@ pub(crate) fn lock(path: &Path) -> Result<Lock, CreateError> {
     }
 }
 
-/// Removes the lock files that a killed run has left beside the results at `path` and beside their replacement.
+/// Removes the lock files of a killed run: the lock file of the results at `path`, and the lock file of their
+/// unfinished replacement.
 pub(crate) fn remove_unused_locks(path: &Path) {
     for results in [path, &replacement::of(path)] {
         let lock = lock_of(results);

@@ -42,10 +42,10 @@ pub enum RecordError {
         /// The reason.
         source: io::Error,
     },
-    /// No column has one of the expected headings. The error contains the message.
+    /// No column has one of the expected headings. The text is the message for the user.
     #[error("{0}")]
     Missing(String),
-    /// The numbers of the record cannot be used. The error contains the message.
+    /// The numbers of the record cannot be used. The text is the message for the user.
     #[error("{0}")]
     Wrong(String),
 }
@@ -242,8 +242,8 @@ fn not_a_number(name: &str, line: u64, heading: &str, cell: &str) -> RecordError
     RecordError::Wrong(format!("{name}, line {line}, column {heading}: `{cell}` is not a number"))
 }
 
-/// Smallest accepted time between two samples, relative to the duration of the record. If the record is
-/// shorter than 1 s, the smallest time is this number of seconds.
+/// Smallest accepted time between two samples, relative to the duration of the record. For a record that is
+/// shorter than 1 s, the smallest accepted time is 1e-12 s.
 const LEAST_STEP: f64 = 1e-12;
 
 /// If the spline leaves the range of the samples by more than this fraction of the range, flap prints a

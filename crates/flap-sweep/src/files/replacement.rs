@@ -38,7 +38,8 @@ pub(crate) fn has_journal(results: &Path) -> io::Result<bool> {
 }
 
 /// Removes the file `<results>.part` with the rows of an unfinished Parquet file, then the journal. If the
-/// process is killed before it removes the journal, the journal still shows that flap wrote these files.
+/// process is killed before it removes the journal, the journal still shows that flap wrote the remaining
+/// files.
 ///
 /// # Errors
 /// Returns the error of the operating system if a file cannot be removed.
@@ -83,8 +84,9 @@ pub(crate) fn of(results: &Path) -> PathBuf {
     Format::with_word(&disk::target(results), "new")
 }
 
-/// Returns true if the replacement `new` has a journal, but neither rows nor a sidecar. Such a journal
-/// remains after the replacement of the results, or after the replacement was discarded.
+/// Returns true if the replacement `new` has a journal, but neither rows nor a sidecar. A killed process
+/// leaves only the journal if it has already replaced the results, or has already removed the unfinished
+/// replacement.
 pub(crate) fn is_over(new: &Path, format: Format) -> bool {
     !disk::is_taken(&sidecar_of(new)) && disk::is_empty(new) && disk::is_empty(&rows_of(new, format))
 }

@@ -58,13 +58,13 @@ pub struct Session {
     seconds_before: f64,
 }
 
-/// A session that continues earlier sessions.
+/// A session that continues an interrupted sweep.
 pub struct Resumed {
     /// The session.
     pub session: Session,
-    /// Summary of the earlier sessions.
+    /// Summary of the rows that earlier sessions of the sweep have written.
     pub before: Summary,
-    /// Start time of the first session, as RFC 3339 in UTC.
+    /// Time at which the sweep was first started, in the format of RFC 3339 and in UTC.
     pub started: String,
     /// Number of rows that earlier runs wrote, but that are missing in the file.
     pub lost: u64,
@@ -224,7 +224,7 @@ impl Session {
         if self.rows.may_be_cut() { self.write_checkpoint(summary) } else { Ok(()) }
     }
 
-    /// Returns the time that all sessions have taken together so far, in seconds.
+    /// Returns the total running time of the sweep so far in seconds, without the time of interruptions.
     pub fn seconds(&self) -> f64 {
         self.seconds_before + self.began.elapsed().as_secs_f64()
     }

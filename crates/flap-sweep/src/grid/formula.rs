@@ -62,8 +62,8 @@ impl Names<'_> {
         Parameter::index(self.parameters, name)
     }
 
-    /// Returns the index of the parameter whose value applies to parameter number `index`. A parameter of one
-    /// wing that is not set has the value of the parameter of all wings.
+    /// Returns the index of the parameter that determines the value of parameter number `index`. If a
+    /// parameter of one wing is not set, the corresponding parameter of all wings determines its value.
     pub(super) fn standing(&self, index: usize) -> usize {
         let shared = of_all_wings(self.parameters, index).filter(|_| self.unset[index].is_some());
         shared.unwrap_or(index)

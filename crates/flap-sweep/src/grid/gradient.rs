@@ -56,7 +56,7 @@ pub(super) fn read(
     Some(Gradient { of, with_respect_to: by.collect(), per: Per::Cent })
 }
 
-/// Returns the index of the measure `name` in the list of the model's measures, followed by the user's
+/// Returns the index of the measure `name` in a list that contains the model's measures and then the user's
 /// measures.
 fn measure(name: &str, span: Range<usize>, names: &Names<'_>, problems: &mut Problems) -> Option<usize> {
     let columns = names.columns.iter().map(|column| column.name.as_str());

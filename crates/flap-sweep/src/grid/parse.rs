@@ -205,8 +205,7 @@ struct Points<'n> {
     body: Option<BodyRows>,
     derived: Derived,
     conditions: Vec<Condition>,
-    /// Parameters of all wings that the grid file sets without effect, because each wing has its own value of
-    /// the parameter.
+    /// Parameters that the grid file sets for all wings without effect, because each wing has its own value.
     unreached: Vec<&'static Parameter<'static>>,
     names: Names<'n>,
 }
@@ -298,8 +297,8 @@ fn read_points<'n>(
 /// Returns the value that each parameter has without the sample. This value is the default mean of a normal
 /// distribution.
 ///
-/// A parameter of one wing that is not set has the value of the parameter of all wings. The exceptions are
-/// parameters of all wings in `moved`, which are varied, sampled or derived.
+/// If a parameter of one wing is not set, it has the value of the corresponding parameter of all wings. This
+/// rule does not apply to the parameters of all wings in `moved`, which are varied, sampled or derived.
 fn default_means(base: &Base, parameters: &[Parameter<'_>], moved: &[usize]) -> Vec<Value> {
     let mean = |index: usize| {
         let own = base.values[index];

@@ -12,8 +12,8 @@ use crate::plan::axes::{Axes, Values};
 pub(super) const KEYS: [&str; 5] = ["from", "to", "n", "step", "scale"];
 pub(super) const SCALES: [&str; 2] = ["linear", "log"];
 
-/// If a step ends at `to` within this fraction of a step, `to` is the last value of the range. The tolerance
-/// is necessary because numbers such as 0.1 are not exact in binary.
+/// If the distance from a value of the range to `to` is at most this fraction of a step, `to` is the last
+/// value. The tolerance is necessary because numbers such as 0.1 are not exact in binary.
 const HIT: f64 = 1e-9;
 
 /// The first and the last value of a range, with their entries in the file for messages.

@@ -35,8 +35,8 @@ pub(super) struct Entry<'t> {
     pub(super) value: &'t Spanned<DeValue<'t>>,
 }
 
-/// Returns the entries of `table` in the order of the file. The TOML parser returns the entries in the order
-/// of their keys.
+/// Returns the entries of `table` in the order of the file. The TOML parser returns the entries in
+/// alphabetical order of the keys.
 pub(super) fn entries<'t>(table: &'t DeTable<'t>) -> Vec<Entry<'t>> {
     let mut entries: Vec<Entry<'t>> =
         table.iter().map(|(key, value)| Entry { key: key.get_ref(), key_span: key.span(), value }).collect();

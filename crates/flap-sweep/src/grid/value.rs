@@ -49,7 +49,8 @@ fn report(parameter: &Parameter, error: &ValueError, value: &Value<'_>, problems
     }
 }
 
-/// Keys whose values are numbers, in the table of a value with a standard error, a range or a distribution.
+/// Keys whose values are numbers, in three kinds of tables: a value with a standard error, a range, and a
+/// distribution.
 const NUMBERS: [&str; 4] = ["value", "from", "to", "mean"];
 
 /// Returns true if all numbers in a value, list, range or distribution have units. If there are no numbers,

@@ -67,8 +67,8 @@ pub(super) struct VehicleSettings {
 const TOTAL_MASS: &str = "total_mass";
 
 impl VehicleSettings {
-    /// Adds the messages about drive frequencies that reading the same section `[vehicle]` with another
-    /// design gave.
+    /// Adds the messages about drive frequencies in `other`, which were found when the section `[vehicle]`
+    /// was read for a different design.
     pub(super) fn append(&mut self, other: VehicleSettings) {
         self.frequencies.extend(other.frequencies);
     }

@@ -22,8 +22,8 @@ const HEAD: &str = "\
 /// them. If the plan has several designs, the text contains the values of the first design. Derived
 /// parameters have the values of their formulas.
 ///
-/// Every parameter has a comment with the description and the range of the parameter. If flap reads the text
-/// again, the numbers are the same, bit for bit.
+/// Every parameter has a comment with the description and the range of the parameter. If flap reads the text,
+/// it gets exactly the numbers of the plan, bit for bit.
 ///
 /// # Errors
 /// - [`UserError`] if a derived parameter depends on an axis or has a value that is not allowed.

@@ -1,4 +1,4 @@
-//! Decides if a point is run.
+//! Decides if flap simulates a point.
 
 use flap_core::parameter::{Invalid, Kind, Parameter, Range};
 
@@ -6,19 +6,20 @@ use super::Plan;
 use super::axes::Values;
 use crate::notation::text;
 
-/// Decision if a point is run, with the reason if the point is not run.
+/// Decision if flap simulates a point, with the reason if flap does not simulate the point.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Admission {
-    /// The point is run.
+    /// flap simulates the point.
     Runs,
-    /// The point is not run and has no row, because it does not satisfy the conditions with these indices.
+    /// The point has no row, because it does not satisfy all conditions. The list contains the indices of the
+    /// unsatisfied conditions.
     Excluded(Vec<usize>),
-    /// The point cannot be run. The row of the point contains the reason.
+    /// The point cannot be simulated. The row of the point contains the reason.
     Invalid(Invalid),
 }
 
 impl Plan {
-    /// Decides if the point with the given values is run.
+    /// Decides if flap simulates the point with the given values.
     pub fn judge(&self, values: &[f64]) -> Admission {
         let held: Vec<Option<bool>> =
             self.conditions().iter().map(|condition| condition.holds(values)).collect();
@@ -40,14 +41,14 @@ impl Plan {
     }
 
     /// Computes the derived parameters of a point from its other parameters. Derived parameters in `fixed`
-    /// keep their values. If the point cannot be run, returns the reason.
+    /// keep their values. If the point cannot be simulated, returns the reason.
     pub fn update(&self, values: &mut [f64], fixed: &[usize]) -> Option<Invalid> {
         self.derived().fill(values, fixed);
         self.invalid(values)
     }
 
-    /// If a point with these values cannot be run, returns the reason. A condition that is not satisfied does
-    /// not count as a reason.
+    /// If a point with the given values cannot be simulated, returns the reason. An unsatisfied condition
+    /// does not count as a reason.
     pub fn invalid(&self, values: &[f64]) -> Option<Invalid> {
         match self.judge(values) {
             Admission::Runs => None,

@@ -43,7 +43,7 @@ pub enum Values {
     },
     /// Values of a sampled parameter.
     Sampled {
-        /// Points of the sample, which are the same for all parameters of the sample.
+        /// Points of the sample. All parameters of the sample use these points.
         sample: Arc<SamplePoints>,
         /// Index of the sample's dimension that gives the values of the parameter.
         dimension: usize,
@@ -52,14 +52,15 @@ pub enum Values {
     },
     /// Values of a sampled parameter with a normal distribution that is correlated with other parameters.
     Correlated {
-        /// Points of the sample, which are the same for all parameters of the sample.
+        /// Points of the sample. All parameters of the sample use these points.
         sample: Arc<SamplePoints>,
         /// Mean of the distribution.
         mean: f64,
         /// Standard deviation of the distribution.
         sd: f64,
-        /// Weights of the independent normal numbers whose sum gives the value. The normal numbers are
-        /// computed from the first dimensions of the sample, and the sum of the squared weights is 1.
+        /// Weights of independent normal random numbers. Their weighted sum determines the value of the
+        /// parameter. The random numbers are computed from the first dimensions of the sample, and the sum of
+        /// the squared weights is 1.
         weights: Vec<f64>,
     },
 }
@@ -223,7 +224,7 @@ impl Axes {
         Ok(Axes { axes, points })
     }
 
-    /// Returns an empty list of axes, which has one point.
+    /// Returns an empty list of axes. A plan without axes has one point.
     pub(crate) fn none() -> Axes {
         Axes { axes: Vec::new(), points: 1 }
     }
@@ -307,7 +308,8 @@ pub struct Along {
     pub parameter: usize,
     /// At least two values of the parameter, in ascending order.
     pub values: Vec<f64>,
-    /// Largest allowed error of the ends of bistable bands. This error must be more than zero.
+    /// Largest allowed error of the parameter value at an end of a bistable band. The number must be more
+    /// than zero.
     pub tolerance: f64,
     /// True if the unstable orbits in bistable bands are computed.
     pub unstable: bool,

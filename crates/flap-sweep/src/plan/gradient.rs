@@ -8,11 +8,11 @@ use crate::notation::text;
 /// The derivatives that rows contain: derivatives of some measures with respect to some parameters.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Gradient {
-    /// Indices of measures in the list of the model's columns, followed by the measures of the plan.
+    /// Indices of measures in a list that contains the model's columns and then the measures of the plan.
     pub of: Vec<usize>,
     /// Indices of parameters in the model's parameter table.
     pub with_respect_to: Vec<usize>,
-    /// Change of the parameter for which the derivatives are given: one per cent or one SI unit.
+    /// Size of the parameter change to which each derivative refers: one per cent or one SI unit.
     pub per: Per,
 }
 

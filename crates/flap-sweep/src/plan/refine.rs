@@ -10,7 +10,7 @@ pub struct Refine {
     /// Measures whose interpolation error is limited. The list contains at least one measure.
     pub measures: Vec<Limit>,
     /// Indices of the axes along which points are added, in ascending order. For every combination of values
-    /// of the other axes, points are added separately.
+    /// of the axes that are not in this list, points are added separately.
     pub along: Vec<usize>,
     /// Largest number of points, including the points of the axes.
     pub max_points: u64,

@@ -109,7 +109,7 @@ impl Deref for Wings {
 type Options<'a> = Vec<&'a str>;
 
 self_cell!(
-    /// Labels of designs, and the same labels as the options of a choice.
+    /// Labels of designs, which are also the options of the choice that names the design.
     struct Labels {
         owner: Vec<String>,
         #[covariant]
@@ -120,8 +120,8 @@ self_cell!(
 type Parameters<'a> = Vec<Parameter<'a>>;
 
 self_cell!(
-    /// All parameters of a robot with several designs. The parameters borrow from the wings and the labels,
-    /// which the table also contains.
+    /// All parameters of a robot with several designs. The table also owns the wings and the labels, from
+    /// which the parameters borrow.
     struct Table {
         owner: (Wings, Labels),
         #[covariant]

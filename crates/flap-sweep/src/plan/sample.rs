@@ -127,8 +127,9 @@ const ROUNDS: u64 = 6;
 /// A random permutation of the numbers from 0 to `count - 1`. The permutation is computed when it is needed,
 /// and not stored.
 ///
-/// A Feistel cipher permutes the numbers below a power of four, which is at least `count`. If the result is
-/// not below `count`, the cipher is applied again. After a few repetitions, the result is below `count`.
+/// A Feistel cipher permutes the numbers below N, where N is a power of four and at least `count`. If the
+/// result is not below `count`, the cipher is applied again. After a few repetitions, the result is below
+/// `count`.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Permutation {
     count: u64,

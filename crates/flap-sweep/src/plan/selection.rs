@@ -12,7 +12,7 @@ pub enum Selection {
     /// All points.
     #[default]
     All,
-    /// The points of one shard, which one machine runs.
+    /// The points of one shard. Each shard is computed on one machine.
     Shard(Shard),
     /// Points whose indices are in a list, in ascending order.
     Listed(Vec<u64>),

@@ -36,7 +36,8 @@ pub struct Plan {
     /// The initial state of each point, or `None` for a motion that begins at rest. If all motions begin at
     /// rest, the list is empty.
     pub(super) initial_states: Vec<Option<Vec<f64>>>,
-    /// Names of the state's components that rows contain. If rows contain no state, the list is empty.
+    /// Names of the components of the state, if rows contain the state. If rows contain no state, the list is
+    /// empty.
     pub(super) states: Vec<String>,
     /// Points that a refinement has added after the points of the axes. Each point is a list of positions,
     /// one along each axis.
@@ -86,8 +87,8 @@ pub(crate) struct Space {
     pub(crate) solver: SolverSettings,
     /// Path and columns of the results file.
     pub(crate) output: Output,
-    /// Parameters of all wings that the grid file sets or varies without effect, because each wing has its
-    /// own value of the parameter.
+    /// Parameters that the grid file sets or varies for all wings without effect, because each wing has its
+    /// own value.
     pub(crate) unreached: Vec<&'static Parameter<'static>>,
     /// Name and text of the grid file, which are recorded with the results.
     pub(crate) source: Source,
@@ -246,8 +247,8 @@ impl Plan {
         &self.space.output
     }
 
-    /// Returns the parameters of all wings that the grid file sets or varies without effect, because each
-    /// wing has its own value of the parameter.
+    /// Returns the parameters that the grid file sets or varies for all wings without effect, because each
+    /// wing has its own value.
     pub fn unreached(&self) -> &[&'static Parameter<'static>] {
         &self.space.unreached
     }
@@ -267,8 +268,8 @@ impl Plan {
         self.followed.as_ref()
     }
 
-    /// Returns the names of the state's components that rows contain. If rows contain no state, the list is
-    /// empty.
+    /// Returns the names of the components of the state, if rows contain the state. If rows contain no state,
+    /// the list is empty.
     pub fn states(&self) -> &[String] {
         &self.states
     }
@@ -353,8 +354,9 @@ impl Plan {
         }
     }
 
-    /// Returns the index of the parameter whose value applies to `parameter`. A parameter of one wing that is
-    /// not set has the value of the parameter of all wings.
+    /// Returns the index of the parameter that determines the value of `parameter`, which is usually
+    /// `parameter` itself. If a parameter of one wing is not set, the corresponding parameter of all wings
+    /// determines its value.
     pub(crate) fn standing(&self, parameter: usize) -> usize {
         let shared = of_all_wings(self.parameters(), parameter).filter(|_| self.unset(parameter).is_some());
         shared.unwrap_or(parameter)

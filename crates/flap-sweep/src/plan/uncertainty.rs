@@ -32,7 +32,8 @@ impl Uncertainty {
         &self.errors
     }
 
-    /// Returns the correlations that were given. All other pairs of parameters are not correlated.
+    /// Returns the correlations that were given. Two parameters without a given correlation are not
+    /// correlated.
     pub fn correlations(&self) -> &[Correlation] {
         &self.correlations
     }

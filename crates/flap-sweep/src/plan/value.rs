@@ -57,8 +57,8 @@ impl WithUnits {
         self.0.contains(&parameter)
     }
 
-    /// Records if a new value of the parameter has a unit. If `has_unit` is `None`, the record does not
-    /// change.
+    /// Records if a new value of the parameter has a unit. If `has_unit` is `None`, the function changes
+    /// nothing.
     pub(crate) fn note(&mut self, parameter: usize, has_unit: Option<bool>) {
         match has_unit {
             Some(true) => _ = self.0.insert(parameter),

@@ -9,8 +9,8 @@ pub(super) struct Tolerance {
     pub(super) range: f64,
 }
 
-/// For a smooth measure, the errors of two neighbouring parabolas usually differ by at most this factor. If
-/// they differ by a larger factor, only one of the two parabolas contains a jump or a kink.
+/// If the measure is smooth, the estimates from the parabolas on the two sides of an edge usually differ by
+/// at most this factor. A larger factor shows that only one of the two parabolas contains a jump or a kink.
 const MOST_APART: f64 = 8.0;
 
 /// An edge of a box, with the nearest points on the line through the edge.
@@ -30,15 +30,15 @@ impl Edge {
     /// If the measure is known at one end only, the estimate is half of the range of the measure. If the
     /// measure is unknown at both ends, the estimate is zero.
     ///
-    /// For a parabola through both ends and a neighbouring point, the error of linear interpolation at the
-    /// middle of the edge is h² f″/8. There is one such parabola for each of the two neighbouring points, and
-    /// the estimate is the mean of their errors. Beside a jump or a kink, only one of the two parabolas
-    /// contains the jump or kink. The larger of the two parabolas' errors therefore counts as at most
-    /// [`MOST_APART`] times the smaller error. If the edge connects two neighbouring values of the axis, the
-    /// estimate is the larger error, because the box has no point between them.
+    /// For a parabola through both ends of the edge and a neighbouring point, the error of linear
+    /// interpolation at the middle of the edge is h² f″/8. The estimate is the mean of the errors for two
+    /// parabolas, one through the neighbouring point on each side. Beside a jump or a kink, only one of the
+    /// two parabolas contains the jump or kink. The larger of the two parabolas' errors therefore counts as
+    /// at most [`MOST_APART`] times the smaller error. If the edge connects two neighbouring values of the
+    /// axis, the estimate is the larger error, because no point between these values is known.
     ///
-    /// If the measure changes more than twice as much along the edge as beside the edge, the measure may have
-    /// a jump. In this case, the estimate is half of the change.
+    /// If the slope along the edge is more than twice the largest slope beside the edge, the measure may have
+    /// a jump. In this case, the estimate is half of the change of the measure along the edge.
     pub(super) fn error(&self, tolerance: &Tolerance) -> f64 {
         if tolerance.error > 0.0 { self.size(tolerance.range) / tolerance.error } else { 0.0 }
     }
@@ -84,7 +84,7 @@ impl Edge {
 ///
 /// If a measure is smooth, halving a box reduces the error along the halved axis to a quarter. If the measure
 /// has a jump, halving does not reduce the error. The error along an axis is therefore divided by two for
-/// each earlier halving. In this way, a box at a jump is halved along all axes.
+/// each earlier halving of the box along this axis. In this way, a box at a jump is halved along all axes.
 pub(super) fn axis(errors: &[f64], halvings: &[u32], most: u32) -> Option<usize> {
     let share = 1.0 / errors.len() as f64;
     let weight = |axis: usize| errors[axis] * libm::exp2(-f64::from(halvings[axis]));

@@ -7,8 +7,8 @@ use super::estimate::{self, Edge, Tolerance};
 /// Coordinates along an axis, between which measures are interpolated.
 #[derive(Clone, Debug)]
 pub(super) enum Side {
-    /// Equidistant coordinates 0, 1, 2 and so on, which also represent values with a constant ratio. The
-    /// variant contains the number of coordinates.
+    /// Equidistant coordinates 0, 1, 2 and so on, for axis values with a constant difference or a constant
+    /// ratio. `Even(n)` has `n` coordinates.
     Even(u64),
     /// Listed values.
     Listed(Vec<f64>),
@@ -23,8 +23,8 @@ impl Side {
         }
     }
 
-    /// Returns the coordinate that is `steps` smallest steps after the first value of the axis. There are
-    /// `whole` smallest steps between two neighbouring values of the axis.
+    /// Returns the coordinate that is `steps` steps after the first value of the axis. Two neighbouring
+    /// values of the axis are `whole` steps apart.
     fn coordinate(&self, steps: u64, whole: u64) -> f64 {
         let position = steps as f64 / whole as f64;
         match self {
@@ -44,8 +44,8 @@ impl Side {
 pub(super) struct Place {
     /// Index of the combination of values of the axes along which no points are added.
     pub(super) map: u64,
-    /// Position along each axis of the mesh, as the number of smallest steps from the first value of the
-    /// axis.
+    /// Position along each axis of the mesh, as the number of steps from the first value of the axis. A step
+    /// is the shortest possible side of a box.
     pub(super) at: Vec<u64>,
 }
 
@@ -86,8 +86,8 @@ pub(super) struct Mesh {
 
 /// A box that is to be halved.
 struct Halving {
-    /// Estimated error of the box times the geometric mean of its side lengths. Boxes with the largest gain
-    /// are halved first.
+    /// Estimated error of the box times the geometric mean of its side lengths. The boxes with the largest
+    /// products are halved first.
     ///
     /// If boxes were halved in the order of the error alone, all points would be added at jumps, where
     /// halving does not decrease the error. If boxes were halved in the order of the error times the volume,
@@ -99,7 +99,7 @@ struct Halving {
 
 impl Mesh {
     /// Returns a mesh with a box between all neighbouring values of the axes. There is a separate set of
-    /// boxes for each of the `maps` combinations of values of the other axes.
+    /// boxes for each of the `maps` combinations of values of the axes along which no points are added.
     pub(super) fn new(sides: Vec<Side>, maps: u64, most: u32, measures: usize) -> Mesh {
         let mut corners: Vec<Vec<u64>> = vec![Vec::new()];
         for side in &sides {
@@ -178,8 +178,8 @@ impl Mesh {
         }
     }
 
-    /// Returns three counts: all boxes, boxes whose estimated error is too large, and boxes with too large an
-    /// error that can still be halved.
+    /// Returns the number of all boxes, and the number of boxes whose estimated error is too large. The third
+    /// number counts the boxes with a too large error that can still be halved.
     pub(super) fn count(&self, tolerances: &[Tolerance]) -> [u64; 3] {
         let errors = self.cells.iter().map(|cell| self.errors(cell, tolerances).iter().sum::<f64>());
         let above = errors.filter(|error| *error > 1.0).count();
@@ -210,7 +210,7 @@ impl Mesh {
         }
     }
 
-    /// Returns the length of a box along an axis, in smallest steps.
+    /// Returns the length of a box along an axis, as a multiple of the shortest possible side of a box.
     fn length(&self, cell: &Cell, axis: usize) -> u64 {
         1 << (self.most - cell.halvings[axis])
     }

@@ -88,7 +88,8 @@ impl Refinement {
         }
     }
 
-    /// Returns the points of the next round. Each point is a list of positions, one along each axis.
+    /// Returns the points of the next round of the refinement. Each point is a list of positions, one along
+    /// each axis.
     ///
     /// The result is empty if the refinement has ended, or if a row of the earlier points is missing.
     pub fn next_round(&mut self) -> Vec<Vec<f64>> {

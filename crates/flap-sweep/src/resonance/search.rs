@@ -1,8 +1,8 @@
 //! Searches for the resonance of one design.
 //!
 //! First, the search runs points on a grid of frequencies, from which it selects the highest peaks. Then
-//! [`Maximum`] locates these peaks accurately. In this second step, each point begins at the orbit of its
-//! nearest neighbour, which takes half the time of a start from rest.
+//! [`Maximum`] locates these peaks accurately. In this second step, each motion begins on the known orbit
+//! with the nearest frequency. Such a motion settles in about half the time of a motion from rest.
 //!
 //! The row at a resonance describes the motion that begins at rest, like every row of a sweep. If this motion
 //! differs from the motion that the search found at the same frequency, the design has more than one orbit.
@@ -18,7 +18,7 @@ use super::target::Target;
 /// factor Q has a relative width of 1/Q.
 const SPACING: f64 = 0.02;
 
-/// Smallest and largest number of intervals of the grid of frequencies.
+/// Smallest and largest number of intervals in the grid of frequencies.
 const INTERVALS: [f64; 2] = [8.0, 500.0];
 
 /// Largest number of peaks that the search locates accurately.

@@ -14,7 +14,7 @@ use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 
 /// Connection between a computation and the code that runs its points. The computation stores points in the
-/// exchange, and the code stores their rows.
+/// exchange, and the code stores the rows of these points.
 #[derive(Default)]
 pub struct Exchange {
     points: Cell<Vec<Point>>,
@@ -40,8 +40,8 @@ pub struct Sequence<'a, T> {
 }
 
 impl<'a, T> Sequence<'a, T> {
-    /// Returns the computation that `work` creates. The computation runs its points with the exchange that
-    /// `work` receives.
+    /// Returns the computation that `work` creates. `work` receives an exchange, through which the
+    /// computation gets the rows of its points.
     pub fn new<F: Future<Output = T> + 'a>(work: impl FnOnce(Rc<Exchange>) -> F) -> Sequence<'a, T> {
         let exchange = Rc::new(Exchange::default());
         let work = Box::pin(work(Rc::clone(&exchange)));
@@ -122,8 +122,8 @@ struct Interleaved<'s, 'a, S: SequenceSource<'a>> {
 /// An unfinished computation, whose points wait or are being run.
 struct Open<'a, T> {
     sequence: Sequence<'a, T>,
-    /// Points that are not being run yet, in reverse order. Each point has its index in the list of points
-    /// that the computation returned last.
+    /// Points that are not being run yet, in reverse order. The number before a point is its index in the
+    /// latest list of points of the computation.
     waiting: Vec<(usize, Point)>,
     /// Row of each point, or `None` if the row has not been received.
     rows: Vec<Option<Row>>,
@@ -148,7 +148,7 @@ impl<'a, T> Open<'a, T> {
 const STRIDE: u64 = 1 << 32;
 
 impl<'a, S: SequenceSource<'a>> Interleaved<'_, 'a, S> {
-    /// Returns a point of an unfinished computation that is not being run yet.
+    /// Returns a waiting point of one of the unfinished computations.
     fn waiting(&mut self) -> Option<Point> {
         for (slot, open) in (0_u64..).zip(&mut self.open) {
             if let Some((place, point)) = open.as_mut().and_then(|open| open.waiting.pop()) {

@@ -117,7 +117,8 @@ pub(super) fn places(model: &dyn Simulator, of: Objective) -> Option<[usize; 2]>
     Some([frequency, objective])
 }
 
-/// Returns true if the stroke of a point is prescribed, so that it is the same at every drive frequency.
+/// Returns true if the stroke of a point is prescribed, so that the stroke is the same at every drive
+/// frequency.
 pub(super) fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) -> bool {
     parameters.iter().zip(values).any(|(parameter, &value)| {
         parameter.name == "stroke_mode" && text::option(parameter, value) == Some("prescribed")

@@ -15,7 +15,7 @@ use crate::run::Summary;
 use crate::run::identity::Identity;
 
 impl<'a> Job<'a> {
-    /// Begins the job after the points that earlier runs have finished.
+    /// Begins the job at the first point that no earlier run has finished.
     pub(super) fn resume(&'a self) -> Result<Begun<'a>, JobError> {
         let format = Format::of(&self.out)?;
         let Some(new) = replacement::unfinished(&self.out) else {
@@ -41,7 +41,7 @@ impl<'a> Job<'a> {
         Ok(begun)
     }
 
-    /// Begins the job after the points that are finished in the results at `place`.
+    /// Begins the job at the first point that is not finished in the results at `place`.
     fn resume_at(&'a self, place: &Path) -> Result<Begun<'a>, JobError> {
         let has_journal =
             replacement::has_journal(place).map_err(|error| JobError::write(place, error, false))?;
@@ -80,8 +80,8 @@ impl<'a> Job<'a> {
     /// Ends a job whose results at `place` are already complete.
     ///
     /// If `has_journal` is true, a run was killed after its last row but before it removed its journal. In
-    /// this case, the function repeats the last steps of the run. If `has_journal` is false, the function
-    /// does not change the results.
+    /// this case, the function gives the results their final name and removes the journal. If `has_journal`
+    /// is false, the function does not change the results.
     fn end_complete<'b>(
         &self,
         place: &Path,

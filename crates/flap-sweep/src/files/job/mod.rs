@@ -2,8 +2,8 @@
 //! be resumed.
 //!
 //! The function [`begin`] opens the files. The caller then writes the rows to [`Writing::sink`] with a
-//! [`RowWriter`](crate::run::RowWriter). The rows are computed on this machine, or arrive in chunks from
-//! other machines. After the last row, the caller calls [`Writing::finish`].
+//! [`RowWriter`](crate::run::RowWriter). The rows are computed on this machine, or arrive from other
+//! machines. After the last row, the caller calls [`Writing::finish`].
 
 use std::fs::{self, File};
 use std::io;
@@ -27,7 +27,7 @@ use crate::table::layout::Layout;
 
 mod earlier;
 
-/// A plan whose rows are computed, and the file for the rows.
+/// A plan whose rows the job computes, and the file into which the job writes the rows.
 pub struct Job<'a> {
     /// Points.
     pub plan: &'a Plan,
@@ -73,7 +73,8 @@ pub struct Writing<'a> {
     /// If the job continues a run, the number of rows that earlier runs wrote but that are missing in the
     /// file. The job computes the missing rows again.
     pub lost: Option<u64>,
-    /// Locks of the result file and of its replacement. The files remain locked until the end of the job.
+    /// Locks of the result file, and of the new file that will replace the result file. The files remain
+    /// locked until the end of the job.
     locks: Vec<Lock>,
     begun: Instant,
 }
@@ -91,7 +92,7 @@ enum Target {
 pub struct Done {
     /// Summary of all rows, including the rows of earlier runs.
     pub summary: Summary,
-    /// Number of rows of earlier runs.
+    /// Number of rows that earlier runs of the job have written.
     pub rows_before: u64,
     /// Time that this process has spent on the job, in seconds.
     pub seconds: f64,
@@ -190,8 +191,8 @@ impl<'a> Job<'a> {
         Begun::Writing(Box::new(Writing { job: self, target, before, lost, locks, begun: Instant::now() }))
     }
 
-    /// Gives the complete results at `place` their final name, and removes the journal and further files of
-    /// unfinished results.
+    /// Gives the complete results at `place` their final name, and removes the files that exist only beside
+    /// unfinished results, such as the journal.
     fn complete(&self, place: &Path) -> Result<(), JobError> {
         let completed = if place == self.out {
             replacement::remove_progress(place)
@@ -324,7 +325,8 @@ pub enum JobError {
     },
 }
 
-/// Returns the end of a message, which describes how the existing rows differ from the rows of the job.
+/// Returns the last part of a message. This part describes how the existing rows differ from the rows of the
+/// job.
 fn other_rows(changes: &[String]) -> String {
     if changes.is_empty() { String::new() } else { format!(", with other rows: {}", changes.join("; ")) }
 }

@@ -1,9 +1,9 @@
-//! Checksums of rows. With the checksums, flap detects damage and finds the damaged rows.
+//! Checksums of rows. With checksums of the rows, flap detects damage in result files and finds the damaged
+//! rows.
 //!
 //! flap computes the checksums from the rows as CSV text. The CSV text is the same for every file format, so
-//! the conversion of a file does not change the checksums. The blocks of rows are counted from the first line
-//! of the file. The checksums therefore do not depend on the number of threads or on interruptions of the
-//! run.
+//! the conversion of a file does not change the checksums. Each block of rows begins at a fixed line of the
+//! file. The checksums therefore do not depend on the number of threads or on interruptions of the run.
 
 use std::fmt::Write as _;
 use std::io::{self, Read, Write};

@@ -59,8 +59,8 @@ impl Provenance {
 /// Devices of a grid, as `[[device]]` tables.
 #[derive(Debug, Default, Serialize, Deserialize)]
 struct Devices {
-    /// Devices of the grid. Their paths are relative to the folder of the grid file, so the same grid in a
-    /// different folder gives the same result file.
+    /// Devices of the grid. The paths of the devices are relative to the folder of the grid file. The same
+    /// grid in a different folder therefore gives the same result file.
     #[serde(default)]
     device: Vec<Source>,
 }
@@ -75,8 +75,8 @@ fn devices(plan: &Plan) -> Devices {
     Devices { device: device.collect() }
 }
 
-/// Returns the base values of the parameters, which apply before the axes vary parameters. Parameters without
-/// a base value, such as computed parameters, are left out.
+/// Returns the values that the parameters have if no axis varies them. Parameters without a base value, such
+/// as computed parameters, are left out.
 pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {
         Some(option) => Value::String(option.to_owned()),

@@ -111,8 +111,8 @@ impl TextRows {
         self.lines.flush()
     }
 
-    /// Returns true if the file can be cut after the last written row. A run that continues after such a row
-    /// writes the same bytes as an uninterrupted run.
+    /// Returns true if the file can be truncated after the last written row. A run that continues after such
+    /// a row writes the same bytes as an uninterrupted run.
     pub(crate) fn may_be_cut(&self) -> bool {
         !self.is_compressed() || self.rows_in_block == 0
     }

@@ -42,11 +42,11 @@ pub struct Sidecar {
     pub points: u64,
     /// Shard of the sweep, such as `2/3`; `None` if the sweep computes all points.
     pub shard: Option<String>,
-    /// Start time of the first session, as RFC 3339 in UTC.
+    /// Time at which the sweep was first started, in the format of RFC 3339 and in UTC.
     pub started: String,
-    /// End time of the last session, as RFC 3339 in UTC.
+    /// Time at which the sweep last ended, in the format of RFC 3339 and in UTC.
     pub finished: Option<String>,
-    /// Time that all sessions of the sweep have taken together, in seconds.
+    /// Total running time of the sweep in seconds, without the time of interruptions.
     pub seconds: Option<f64>,
     /// Number of worker threads.
     pub threads: usize,
@@ -63,8 +63,8 @@ pub struct Sidecar {
     pub rerun: Option<Rerun>,
     /// Parameter along which response curves were computed; `None` if the rows contain no response curves.
     pub followed: Option<Followed>,
-    /// Base values of the parameters, which apply before the axes vary parameters. Parameters without a base
-    /// value, such as computed parameters, are left out.
+    /// Values that the parameters have if no axis varies them. Parameters without a base value, such as
+    /// computed parameters, are left out.
     parameters: BTreeMap<String, Value>,
     /// Varied parameters.
     varied: Vec<Unit>,
@@ -98,8 +98,7 @@ pub enum State {
 pub struct Origin {
     /// Result file.
     pub of: String,
-    /// Kinds of rows of the earlier results that the rerun computes again, such as `unsettled` or
-    /// `inaccurate`.
+    /// Kinds of rows that the rerun computes again, such as `unsettled` or `inaccurate`.
     pub statuses: Vec<String>,
 }
 
@@ -111,7 +110,7 @@ pub struct Rerun {
     pub origin: Origin,
     /// Indices of the points, such as `3,17,20-31`.
     pub points: String,
-    /// Points that a refinement has added. Each point is a list with one position for each axis.
+    /// Points that a refinement has added. A point is stored as a list of its positions along all axes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub added: Vec<Vec<f64>>,
 }

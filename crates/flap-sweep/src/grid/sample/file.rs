@@ -67,8 +67,8 @@ struct Column<'t, 'p> {
     unit: Option<&'t str>,
 }
 
-/// Returns the index of the parameter and the values of each column, and true if the heading of the column
-/// has a unit. The second part of the result is true if the file has no mistakes.
+/// For each column, returns the index of the parameter, the values, and true if the heading of the column has
+/// a unit. The second part of the result is true if the file has no mistakes.
 fn columns(source: &Arc<Source>, lookup: &mut Lookup<'_>) -> (Vec<(usize, Values, bool)>, bool) {
     if let Some(line) = source.text.lines().find(|line| line.len() > LONGEST_LINE) {
         let begin = line.as_ptr().addr() - source.text.as_ptr().addr();

@@ -16,9 +16,9 @@ pub enum Distribution {
     },
     /// Uniform distribution on a logarithmic scale between two values of the same sign.
     LogUniform {
-        /// One end of the distribution.
+        /// The value at the first end of the distribution.
         from: f64,
-        /// The other end of the distribution.
+        /// The value at the second end of the distribution.
         to: f64,
     },
     /// Normal distribution, truncated at finite bounds.
