@@ -5,8 +5,8 @@
 //!
 //! For unfinished results, the journal records the number of rows that are safe on disk. The journal also
 //! records the identity of the sweep: the build and the settings that determine the rows. From undamaged
-//! unfinished results, flap reads only the rows that the journal counts. If the sidecar and the journal have
-//! different identities, the results count as damaged.
+//! unfinished results, flap reads only the rows that the journal counts. If the sidecar and the journal
+//! record different identities of the sweep, the results count as damaged.
 
 use std::fmt;
 use std::fs::File;
@@ -364,9 +364,9 @@ fn whole_rows(mut file: File, format: Format) -> io::Result<Reader> {
 
 /// Returns a reader of unfinished results that stops at the last checkpoint of the journal.
 ///
-/// The rows must have the checksums that the journal records. If the checksums differ and `on_damage`
-/// tolerates damage, the reader returns all complete rows. If the sidecar is from a different sweep and
-/// damage is tolerated, the function sets `sidecar` to `None`.
+/// The rows must have the checksums that the journal records. If the rows have different checksums and
+/// `on_damage` tolerates damage, the reader returns all complete rows. If the sidecar is from a different
+/// sweep and damage is tolerated, the function sets `sidecar` to `None`.
 fn unfinished(
     path: &Path,
     format: Format,
@@ -426,7 +426,7 @@ pub enum Integrity {
         /// Number of finished points, if the number is known.
         done: Option<u64>,
     },
-    /// The results cannot be checked. The text is the reason.
+    /// The results cannot be checked. The text contains the reason.
     Unverified(&'static str),
     /// Another program has changed the results.
     Damaged(Damage),

@@ -1,11 +1,11 @@
 //! Reads and writes result files. Files beside a result file record the origin of the rows and the progress
 //! of the run.
 //!
-//! The module `beside` contains the names of the files beside results, `disk` writes files, and [`results`]
-//! reads and writes rows. The modules [`journal`] and [`sidecar`] read and write the files beside results,
-//! and `replacement` replaces and removes results. The module `output` opens and locks a result file,
-//! [`session`] writes rows into the file, and [`integrity`] checks the file. The module [`job`] writes the
-//! results of a whole plan.
+//! The module `beside` contains the names of the files beside results. The module `disk` writes files, and
+//! the module [`results`] reads and writes rows. The modules [`journal`] and [`sidecar`] read and write the
+//! files beside results. The module `replacement` replaces and removes results. The module `output` opens and
+//! locks a result file, the module [`session`] writes rows into the file, and the module [`integrity`] checks
+//! the file. The module [`job`] writes the results of a whole plan.
 
 pub mod beside;
 pub mod csv_sink;

@@ -66,8 +66,8 @@ impl CreateError {
 /// - [`CreateError::Unfinished`] if `overwrite` is false and there is a journal, either of the file or of a
 ///   new file that will replace the file.
 /// - [`CreateError::InTheWay`] if a file of another program has the name of the sidecar or of the lock file.
-///   If `overwrite` is false, an existing sidecar is an error too, unless a run that was killed before its
-///   first row has left it.
+///   If `overwrite` is false, an existing sidecar also causes this error. The exception is a sidecar of a run
+///   that was killed before its first row.
 /// - [`CreateError::Busy`] if another run has locked the file.
 /// - [`CreateError::Io`] if the file cannot be opened.
 pub fn create(path: &Path, overwrite: bool) -> Result<(File, Option<Lock>), CreateError> {

@@ -42,10 +42,10 @@ pub enum RecordError {
         /// The reason.
         source: io::Error,
     },
-    /// No column has one of the expected headings. The text is the message for the user.
+    /// No column has one of the expected headings. The text contains the message for the user.
     #[error("{0}")]
     Missing(String),
-    /// The numbers of the record cannot be used. The text is the message for the user.
+    /// The numbers of the record cannot be used. The text contains the message for the user.
     #[error("{0}")]
     Wrong(String),
 }
@@ -174,7 +174,7 @@ impl Record {
     /// # Errors
     /// - [`RecordError::Wrong`] if two samples are too close in time, or if the samples do not define a
     ///   smooth function.
-    /// - The errors of [`Record::column`] for the column of the time and for the column of the quantity.
+    /// - Any error that [`Record::column`] returns for the time or for the quantity.
     pub fn samples(&self, quantity: &Quantity<'_>, repeat: Repeat) -> Result<Samples, RecordError> {
         let (times, values) = (self.column(&TIME)?, self.column(quantity)?);
         let duration = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);

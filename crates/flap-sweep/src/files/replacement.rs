@@ -2,18 +2,18 @@
 //! files that flap wrote.
 //!
 //! flap recognises its own journals by the checksum of the first line, and its own sidecars by their entries.
-//! If a journal exists, flap also wrote the file `<results>.part`, because flap creates a journal only if no
-//! such file exists.
+//! If a journal exists, flap also wrote the file `<results>.part`, because flap creates a journal only if
+//! there is no file `<results>.part`.
 //!
 //! With `--restart`, the earlier results keep their names until the new results are complete. Until the new
 //! results of `rows.csv` are complete, flap writes them to `rows.new.csv`, with a sidecar and a journal
 //! beside this file. The journal records that `rows.new.csv` is a replacement, so flap never treats a user's
 //! file with this name as a replacement.
 //!
-//! If the sidecar is missing, flap reports the results as unverified. If the sidecar belongs to different
-//! rows, flap reports damage. The function [`commit`] therefore removes the earlier sidecar, renames the
-//! rows, and then writes the new sidecar. If the process is killed during a replacement, the next call of
-//! [`commit`] completes the replacement.
+//! If the sidecar is missing, flap reports the results as unverified. If the sidecar was written for
+//! different rows, flap reports damage. The function [`commit`] therefore removes the earlier sidecar,
+//! renames the rows, and then writes the new sidecar. If the process is killed during a replacement, the next
+//! call of [`commit`] completes the replacement.
 
 use std::fs;
 use std::io::{self, Write};

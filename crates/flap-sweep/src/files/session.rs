@@ -2,8 +2,8 @@
 //! earlier run.
 //!
 //! A checkpoint is at the end of a row, or in compressed files at the end of a frame. The bytes of the file
-//! before a checkpoint do not depend on later rows. A resumed run removes the rows after the last checkpoint
-//! and computes them again, with the same bytes.
+//! before a checkpoint do not depend on later rows. A resumed run removes the rows after the last checkpoint,
+//! computes these rows again, and writes the same bytes as before.
 //!
 //! A Parquet file can be neither read nor continued before its last byte is written. The rows of a Parquet
 //! file are therefore first written to `<results>.part`, as compressed text like a `.csv.zst` file. When the
@@ -34,8 +34,8 @@ use crate::table::layout::Cell;
 pub struct SessionOptions {
     /// Options of the run.
     pub run: RunOptions,
-    /// Time between checkpoints. For each checkpoint, flap waits twice until data are safe on disk. A run
-    /// that is killed loses the rows since the last checkpoint.
+    /// Time between checkpoints. For each checkpoint, flap waits until the rows are safe on disk, and then
+    /// until the journal is safe on disk. A run that is killed loses the rows since the last checkpoint.
     pub checkpoint_interval: Duration,
 }
 
@@ -235,11 +235,11 @@ impl Session {
         rows_of(&self.path, self.format)
     }
 
-    /// Adds the last checkpoint. If the run is complete, the function also writes the Parquet file. Call this
-    /// function after [`Sink::finish`].
+    /// Adds the last checkpoint. If the run is complete and the results are a Parquet file, the function also
+    /// writes the Parquet file. Call this function after [`Sink::finish`].
     ///
     /// # Errors
-    /// - [`io::ErrorKind::Other`] if a file of the session was removed, replaced or changed.
+    /// - [`io::ErrorKind::Other`] if a file into which the session writes was removed, replaced or changed.
     /// - The error of the operating system if a file cannot be written.
     pub fn end(&mut self, summary: &Summary) -> io::Result<()> {
         if !summary.is_interrupted() || self.rows.may_be_cut() {

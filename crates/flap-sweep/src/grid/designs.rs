@@ -1,5 +1,5 @@
-//! Reads the designs with which a grid file starts. Several designs, as in `device = ["a.toml", "b.toml"]`,
-//! form an axis.
+//! Reads the designs whose parameters a grid file varies. Several designs, as in `device = ["a.toml",
+//! "b.toml"]`, form an axis.
 
 use std::ops::Range;
 use std::path::Path;
@@ -17,7 +17,7 @@ use crate::plan::axes::{Axis, Values};
 use crate::plan::uncertainty::Uncertainty;
 use crate::plan::{Differences, Value};
 
-/// The designs with which a grid file starts, without the wings of the section `[vehicle]`.
+/// The designs whose parameters the grid file varies, without the wings of the section `[vehicle]`.
 pub(super) struct Designs {
     /// The list contains at least one design, and all designs have the same model.
     pub(super) bases: Vec<Base>,

@@ -1,5 +1,5 @@
-//! Reads the design with which a grid file starts: a preset, or a device with its `[params]`. The module also
-//! reads the section `[params]` of grid files.
+//! Reads the design whose parameters a grid file varies: a preset, or a device with its `[params]`. The
+//! module also reads the section `[params]` of grid files.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -21,7 +21,7 @@ use crate::plan::{Robot, Source, Value, WithUnits};
 /// Keys of a device.
 const DEVICE_KEYS: [&str; 5] = ["description", "preset", "device", "params", "correlation"];
 
-/// The design with which a grid file starts.
+/// The design whose parameters the grid file varies.
 pub(super) struct Base {
     pub(super) robot: Robot,
     /// The preset of the design, or the preset on which the device of the design is based.

@@ -255,7 +255,7 @@ impl Problems {
 
     /// Sorts the diagnostics: first the diagnostics about this file, in the order of the file, then the
     /// diagnostics about other files. Keeps the first [`Mistakes::MOST_SHOWN`] diagnostics, and counts the
-    /// further ones.
+    /// remaining diagnostics.
     pub(super) fn into_mistakes(mut self) -> Mistakes {
         let source = Arc::clone(&self.source);
         self.found

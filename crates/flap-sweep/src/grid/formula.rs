@@ -33,16 +33,17 @@ pub(super) struct Names<'n> {
     pub(super) parameters: &'n [Parameter<'n>],
     /// For each design, the values of the parameters in its preset.
     pub(super) preset: Vec<Vec<Value>>,
-    /// For each design, the values of the parameters in its device, if the grid starts from devices.
+    /// For each design, the values of the parameters in its device, if the grid file names devices.
     pub(super) device: Option<Vec<Vec<Value>>>,
     /// For each parameter that is not set, a description of the parameters that determine its value.
     pub(super) unset: Vec<Option<&'static str>>,
-    /// Parameters that the search for hover changes. The values of these parameters are unknown before a
-    /// point is run.
+    /// Parameters that the search for hover changes. The values of these parameters are unknown before flap
+    /// computes a point.
     pub(super) inputs: Vec<usize>,
     /// Measures of the model, without the user's measures.
     pub(super) columns: Vec<Column>,
-    /// True if expressions may contain measures. The values of measures are unknown before a point is run.
+    /// True if expressions may contain measures. The values of measures are unknown before flap computes a
+    /// point.
     pub(super) are_measured: bool,
     /// Measures of the user that expressions may contain.
     pub(super) own: Vec<OwnMeasure>,
@@ -166,7 +167,7 @@ impl Scope for Names<'_> {
 }
 
 /// Parses the expression in `entry`. `wanted` states if the expression must be a number or a condition. The
-/// expression may contain only values that are known before points are run.
+/// expression may contain only values that are known before flap computes points.
 ///
 /// If the expression has mistakes, reports the mistakes and returns `None`.
 pub(super) fn read(
@@ -321,8 +322,8 @@ fn dependencies(expression: &Expression, formulas: &[(usize, Expression)]) -> Ve
 }
 
 /// Returns the indices of the formulas, in an order in which each formula comes after all formulas on which
-/// it depends. The result leaves out formulas that depend on themselves, and formulas that depend on such
-/// formulas.
+/// it depends. The result leaves out formulas that depend on themselves, and formulas that depend on a
+/// formula that is left out.
 fn order(dependencies: &[Vec<usize>]) -> Vec<usize> {
     let mut order: Vec<usize> = Vec::new();
     let mut waiting: Vec<usize> = (0..dependencies.len()).collect();

@@ -71,9 +71,9 @@ impl<'l> Lookup<'l> {
 
 /// Explains why a vehicle has no parameter called `name`. `parameters` are the parameters of the vehicle.
 ///
-/// The function can explain a choice or the frequency of one wing, a phase, and a left-right difference
-/// without wings on both sides. For any other name, and if the parameters are not the parameters of a
-/// vehicle, returns `None`.
+/// The function explains the absence of three kinds of parameters: choices and frequencies of one wing,
+/// phases, and left-right differences without wings on both sides. For all other names, or if `parameters`
+/// are not the parameters of a vehicle, returns `None`.
 pub fn why_absent(parameters: &[Parameter], name: &str) -> Option<String> {
     if !parameters.iter().any(|known| known.name == "about_x") {
         return None;

@@ -24,7 +24,8 @@ use crate::plan::{Differences, Plan, PointsFile, Robot, Source, Space, Value};
 use crate::resonance::AtResonance;
 use crate::vehicle::BodyRows;
 
-/// Reads the grid file at `path` and returns its plan. The grid file can start from the presets of `models`.
+/// Reads the grid file at `path` and returns its plan. The grid file can name any preset of a model in
+/// `models`.
 ///
 /// # Errors
 /// Returns an error if the file cannot be read or has mistakes.
@@ -33,8 +34,8 @@ pub fn read(path: &Path, models: &[&'static dyn Simulator]) -> Result<Plan, Read
     read_from(file, path, models)
 }
 
-/// Reads a grid file from a stream, such as stdin, and returns its plan. The grid file can start from the
-/// presets of `models`.
+/// Reads a grid file from a stream, such as stdin, and returns its plan. The grid file can name any preset of
+/// a model in `models`.
 ///
 /// `name` is the file name that messages and sidecars contain for the stream. Paths in the grid file are
 /// relative to the folder of `name`.
@@ -55,8 +56,8 @@ pub fn read_from(
     parse(&name.display().to_string(), &text, models).map_err(ReadError::Grid)
 }
 
-/// Checks the text of a grid file and returns its plan. The grid file can start from the presets of `models`.
-/// `name` is the file name in messages.
+/// Checks the text of a grid file and returns its plan. The grid file can name any preset of a model in
+/// `models`. `name` is the file name in messages.
 ///
 /// # Errors
 /// Returns the mistakes in the order of the file. If the file is not valid TOML, only syntax errors are
@@ -297,8 +298,9 @@ fn read_points<'n>(
 /// Returns the value that each parameter has without the sample. This value is the default mean of a normal
 /// distribution.
 ///
-/// If a parameter of one wing is not set, it has the value of the corresponding parameter of all wings. This
-/// rule does not apply to the parameters of all wings in `moved`, which are varied, sampled or derived.
+/// If a parameter of one wing is not set, it has the value of the corresponding parameter of all wings. The
+/// rule does not apply if `moved`, the list of varied, sampled and derived parameters, contains the parameter
+/// of all wings.
 fn default_means(base: &Base, parameters: &[Parameter<'_>], moved: &[usize]) -> Vec<Value> {
     let mean = |index: usize| {
         let own = base.values[index];
@@ -330,8 +332,8 @@ fn looks_like_results(bytes: &[u8]) -> bool {
     is_table || bytes.starts_with(&ZSTD) || bytes.starts_with(b"PAR1")
 }
 
-/// Returns the message of `error` after the path of the file. If the message names a position, the line and
-/// column stand after the path, so that terminals show a link.
+/// Returns text that contains the path of the file and then the message of `error`. If the message names a
+/// position, the line and column stand after the path, so that terminals show a link.
 fn located(path: &Path, error: &InputError) -> String {
     let path = path.display();
     match error {

@@ -188,8 +188,8 @@ fn check_measure(name: &str, span: &Range<usize>, rows: &Rows<'_>, lookup: &mut 
     }
 }
 
-/// Returns the largest allowed interpolation error of each measure. The file contains one error for all
-/// measures, or a list with one error for each measure.
+/// Returns the largest allowed interpolation error of each measure. The file contains one allowed error for
+/// all measures, or a list with one allowed error for each measure.
 fn errors_of(entry: &Entry<'_>, measures: &[String], problems: &mut Problems) -> Vec<Option<Error>> {
     let DeValue::Array(list) = entry.value.get_ref() else {
         return measures.iter().map(|measure| error(measure, entry.value, problems)).collect();

@@ -208,7 +208,7 @@ pub(super) fn read(
 /// Returns the parameters in `chosen` that affect no wing, because each wing has its own value of the
 /// parameter.
 ///
-/// `is_own` returns true for a parameter of one wing that the grid file sets.
+/// `is_own` returns true if the grid file sets this parameter, which is a parameter of one wing.
 pub(super) fn unreached(
     vehicle: &Vehicle,
     chosen: &[usize],
@@ -407,8 +407,8 @@ impl VehicleReader<'_> {
         }
     }
 
-    /// Reads the preset or device of a wing. The wing gets all numbers of this design except the drive
-    /// parameters.
+    /// Reads the preset or device of a wing. The wing gets all numbers of this preset or device except the
+    /// drive parameters.
     fn design(&mut self, index: usize, entries: &[Entry<'_>]) {
         let Some(begin) = table::find(entries, "preset").or_else(|| table::find(entries, "device")) else {
             return;

@@ -153,8 +153,8 @@ fn line(parameter: &Parameter, value: Option<f64>, error: Option<f64>) -> String
 /// Returns the text of a device file that is based on the preset or device `base`, with new values of the
 /// `parameters` of a wing. `parameters` contains names and values in SI units.
 ///
-/// Values are rounded to ten digits. A comment after each value shows the value in `base`. If this value was
-/// fitted to one vehicle, the comment also contains a note about the fit.
+/// Values are rounded to ten digits. A comment after each value shows the value of the same parameter in
+/// `base`. If the value in `base` was fitted to one vehicle, the comment also contains a note about the fit.
 pub fn wing(plan: &Plan, base: &str, parameters: &[(&str, f64)]) -> String {
     let kind = if base == plan.preset() { "preset" } else { "device" };
     let mut page = format!("{kind} = \"{base}\"\n\n[params]\n");

@@ -43,7 +43,7 @@ pub enum Values {
     },
     /// Values of a sampled parameter.
     Sampled {
-        /// Points of the sample. All parameters of the sample use these points.
+        /// Points of the sample. All parameters of a sample use the same points.
         sample: Arc<SamplePoints>,
         /// Index of the sample's dimension that gives the values of the parameter.
         dimension: usize,
@@ -52,15 +52,15 @@ pub enum Values {
     },
     /// Values of a sampled parameter with a normal distribution that is correlated with other parameters.
     Correlated {
-        /// Points of the sample. All parameters of the sample use these points.
+        /// Points of the sample. All parameters of a sample use the same points.
         sample: Arc<SamplePoints>,
         /// Mean of the distribution.
         mean: f64,
         /// Standard deviation of the distribution.
         sd: f64,
-        /// Weights of independent normal random numbers. Their weighted sum determines the value of the
-        /// parameter. The random numbers are computed from the first dimensions of the sample, and the sum of
-        /// the squared weights is 1.
+        /// Weights of independent normal random numbers. The weighted sum of the random numbers determines
+        /// the value of the parameter. The random numbers are computed from the first dimensions of the
+        /// sample, and the sum of the squared weights is 1.
         weights: Vec<f64>,
     },
 }
@@ -308,8 +308,8 @@ pub struct Along {
     pub parameter: usize,
     /// At least two values of the parameter, in ascending order.
     pub values: Vec<f64>,
-    /// Largest allowed error of the parameter value at an end of a bistable band. The number must be more
-    /// than zero.
+    /// Largest allowed error of the parameter value at an end of a bistable band. The allowed error must be
+    /// more than zero.
     pub tolerance: f64,
     /// True if the unstable orbits in bistable bands are computed.
     pub unstable: bool,

@@ -152,7 +152,7 @@ impl Plan {
     ///
     /// # Errors
     /// - [`ChangeError::NoDerivative`] or [`ChangeError::NoSlope`] for a parameter or a measure without derivatives.
-    /// - [`ChangeError::AtResonance`] if rows are at the resonance of each design.
+    /// - [`ChangeError::AtResonance`] if rows are computed at the resonance of each design.
     /// - [`ChangeError::NoMotions`] if the model does not compute motions.
     pub fn with_slopes(mut self, by: Vec<usize>) -> Result<Plan, ChangeError> {
         self.states_of_motions()?;
@@ -182,12 +182,12 @@ impl Plan {
     }
 
     /// Returns the plan whose motions begin at the given states. `states` contains one state for each point,
-    /// or `None` for a motion that begins at rest. The new plan runs all its points.
+    /// or `None` for a motion that begins at rest. In the new plan, all points are selected for computation.
     ///
     /// # Errors
     /// - [`ChangeError::States`] if the number of states differs from the number of points.
-    /// - [`ChangeError::AtResonance`] or [`ChangeError::OfBody`] if rows are at the resonance, at hover, or have the
-    ///   damping matrix.
+    /// - [`ChangeError::AtResonance`] or [`ChangeError::OfBody`] if rows are computed at the resonance or at
+    ///   hover, or contain the damping matrix.
     /// - [`ChangeError::NoMotions`] if the model does not compute motions.
     pub fn with_initial_states(mut self, states: Vec<Option<Vec<f64>>>) -> Result<Plan, ChangeError> {
         self.check_motions()?;
@@ -244,8 +244,8 @@ impl Plan {
     /// Returns the plan with an additional axis, whose values a program provides. The new axis is before all
     /// other axes.
     ///
-    /// `parameters` contains the same number of values for each parameter. The new plan runs all its points.
-    /// If a value is out of range, the row of its point has the status `invalid`.
+    /// `parameters` contains the same number of values for each parameter. In the new plan, all points are
+    /// selected for computation. If a value is out of range, the row of its point has the status `invalid`.
     ///
     /// # Errors
     /// - [`ChangeError::Varied`], [`ChangeError::Derived`] or [`ChangeError::Resonance`] if an axis, a
@@ -271,7 +271,7 @@ impl Plan {
     /// Removes the axis that varies only `parameter`. Returns the new plan, and the values of the removed
     /// axis if there was such an axis.
     ///
-    /// The new plan runs all its points.
+    /// In the new plan, all points are selected for computation.
     pub fn without_axis(mut self, parameter: usize) -> (Plan, Option<Values>) {
         let (axes, values) = self.space.axes.without(parameter);
         self.space.axes = axes;
@@ -287,14 +287,14 @@ impl Plan {
         self
     }
 
-    /// Returns the plan that runs only the points of one shard.
+    /// Returns a copy of the plan that computes only the points of one shard.
     pub fn with_shard(mut self, shard: Shard) -> Plan {
         self.selection = Selection::Shard(shard);
         self
     }
 
-    /// Returns the plan that runs only the points in `list`. The list contains indices of points in ascending
-    /// order.
+    /// Returns a copy of the plan that computes only the points in `list`. The list contains indices of
+    /// points in ascending order.
     ///
     /// # Errors
     /// [`ChangeError::NoPoint`] if an index is not less than [`Plan::len`], or not larger than the previous index.
@@ -307,14 +307,14 @@ impl Plan {
         Ok(self)
     }
 
-    /// Returns the plan that runs all points.
+    /// Returns a copy of the plan that computes all points.
     pub fn with_all_points(mut self) -> Plan {
         self.selection = Selection::All;
         self
     }
 
-    /// Returns the plan with additional measures after its own measures. The rows of the new plan have no
-    /// derivatives.
+    /// Returns a copy of the plan with additional measures after the existing measures. The rows of the new
+    /// plan have no derivatives.
     pub(crate) fn with_measures(mut self, more: Vec<OwnMeasure>) -> Plan {
         self.space.measures.extend(more);
         self.space.gradient = None;

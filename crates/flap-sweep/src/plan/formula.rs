@@ -5,7 +5,7 @@ use crate::notation::expression::{Expression, Kind};
 /// Parameters that are computed from other parameters.
 #[derive(Clone, Debug, Default)]
 pub struct Derived {
-    /// Derived parameters in the order of the file: the index in the model's parameter table, and the
+    /// Derived parameters in the order of the file, each as an index in the model's parameter table and an
     /// expression.
     formulas: Vec<(usize, Expression)>,
     /// Indices into `formulas`, in an order in which each formula comes after the formulas on which it
@@ -34,8 +34,8 @@ impl Derived {
         })
     }
 
-    /// Computes the derived parameters from the other `values` of a point. Derived parameters in `except`
-    /// keep their values.
+    /// Computes the derived parameters of a point from the other parameters in `values`. Derived parameters
+    /// in `except` keep their values.
     pub fn fill(&self, values: &mut [f64], except: &[usize]) {
         for &place in &self.order {
             let (parameter, expression) = &self.formulas[place];
@@ -46,7 +46,7 @@ impl Derived {
     }
 }
 
-/// A condition of a grid file. Points that do not satisfy the condition are not run.
+/// A condition of a grid file. flap does not compute points that do not satisfy the condition.
 #[derive(Clone, Debug)]
 pub struct Condition {
     /// Name of the condition in the grid file.

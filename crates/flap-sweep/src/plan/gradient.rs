@@ -49,13 +49,14 @@ pub enum NoDerivative {
     /// The parameter is a whole number.
     #[error("has whole numbers as values, so there is no derivative with respect to it")]
     Whole,
-    /// The parameter is not set. The text describes the parameters from which the parameter is computed.
+    /// The parameter is not set. The text describes the parameters that determine the value of this
+    /// parameter.
     #[error("is not set: {}", following(.0))]
     Unset(&'static str),
 }
 
-/// Returns text about a parameter that is not set: the parameters that determine its value, or the remark
-/// that it has no default.
+/// Returns text about a parameter that is not set. The text names the parameters that determine the value, or
+/// states that there is no default.
 fn following(others: &str) -> String {
     text::no_default(others).unwrap_or_else(|| format!("it follows {others}"))
 }

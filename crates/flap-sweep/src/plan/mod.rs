@@ -1,4 +1,4 @@
-//! A plan contains the points of a checked grid file, and the settings for running the points.
+//! A plan contains the points of a checked grid file, and the settings for the computation of the points.
 //!
 //! - [`Plan`]: the checked contents of a grid file, and methods that return a changed plan.
 //! - [`axes`]: values of varied parameters.
@@ -7,7 +7,7 @@
 //! - [`gradient`]: derivatives of measures.
 //! - [`refine`]: settings for the points that are added between the values of the axes.
 //! - [`uncertainty`]: standard errors of parameters, and correlations between parameters.
-//! - [`selection`]: selection of the points that are run.
+//! - [`selection`]: selection of the points that flap computes.
 
 mod admission;
 pub mod axes;

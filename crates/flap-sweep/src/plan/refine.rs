@@ -1,4 +1,4 @@
-//! Settings of the adaptive refinement of a grid, which [`crate::refine`] computes.
+//! Settings of the adaptive refinement of a grid. The module [`crate::refine`] computes the refinement.
 
 use flap_core::parameter::{Kind, Parameter, Range};
 
@@ -23,8 +23,8 @@ impl Refine {
     /// memory.
     pub const MOST_POINTS: u64 = 1_000_000;
 
-    /// Largest number of axes along which points are added. With six axes, a box between points has 2^6 = 64
-    /// corners.
+    /// Largest number of axes along which points are added. A box with six axes has 2^6 = 64 corners, and
+    /// each corner is a point.
     pub const MOST_AXES: usize = 6;
 
     /// Largest allowed value of `halvings`.
@@ -47,10 +47,10 @@ pub struct Limit {
 /// Largest allowed error of an interpolated measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Error {
-    /// The largest error is a fraction of the difference between the largest and the smallest value of the
-    /// measure in all rows.
+    /// The largest allowed error is a fraction of the difference between the largest and the smallest value
+    /// of the measure in all rows.
     Share(f64),
-    /// The largest error is a number in the unit of the column.
+    /// The largest allowed error is a number in the unit of the column.
     Absolute(f64),
 }
 

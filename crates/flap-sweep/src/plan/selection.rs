@@ -1,12 +1,12 @@
-//! Selection of the points of a plan that are run: all points, every n-th point, or a list of points.
+//! Selection of the points that flap computes: all points of a plan, every n-th point, or a list of points.
 
 use std::fmt;
 use std::str::FromStr;
 
 use xxhash_rust::xxh3::Xxh3Default;
 
-/// Selection of the points of a plan that are run. Rows contain the indices that the points have in the whole
-/// plan.
+/// Selection of the points that flap computes for a plan. Rows contain the indices that the points have in
+/// the whole plan.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Selection {
     /// All points.
@@ -128,9 +128,9 @@ pub fn list_text(list: &[u64]) -> String {
 /// Largest number of points in a list of points. The number is limited because the list is stored in memory.
 pub const MOST_LISTED: u64 = 10_000_000;
 
-/// Converts text in the form of [`list_text`] to a list of indices. Returns `None` if the text has another
-/// form, or if an index is not below `points`. Also returns `None` if there are more than [`MOST_LISTED`]
-/// indices.
+/// Converts text in the form of [`list_text`] to a list of indices. Returns `None` if the text does not have
+/// the form of [`list_text`], or if an index is not below `points`. Also returns `None` if there are more
+/// than [`MOST_LISTED`] indices.
 pub fn read_list(text: &str, points: u64) -> Option<Vec<u64>> {
     let mut list: Vec<u64> = Vec::new();
     for run in text.split(',').filter(|run| !run.is_empty()) {

@@ -23,10 +23,10 @@ use super::value::{Value, WithUnits};
 use crate::resonance::AtResonance;
 use crate::vehicle::BodyRows;
 
-/// A checked design space, and the settings for running its points.
+/// A checked design space, and the settings for the computation of its points.
 ///
 /// [`crate::grid`] makes plans from grid files. Methods that change a plan keep the plan valid: values are in
-/// range, and each parameter is set, varied or derived in one place. The selection of a plan contains only
+/// range, and exactly one part of the plan determines each parameter. The selection of a plan contains only
 /// indices of existing points.
 #[derive(Clone)]
 pub struct Plan {
@@ -76,7 +76,7 @@ pub(crate) struct Space {
     pub(crate) points_file: Option<PointsFile>,
     /// Parameters that are computed from other parameters.
     pub(crate) derived: Derived,
-    /// Conditions. Points that do not satisfy all conditions are not run.
+    /// Conditions. flap does not compute points that do not satisfy all conditions.
     pub(crate) conditions: Vec<Condition>,
     /// Columns that the user defines by expressions. An expression can contain the model's measures and
     /// earlier columns of the user.
@@ -95,7 +95,7 @@ pub(crate) struct Space {
 }
 
 impl Plan {
-    /// Returns the plan that runs all points of a design space.
+    /// Returns the plan that computes all points of a design space.
     pub(crate) fn new(space: Space) -> Plan {
         Plan {
             space,
@@ -112,13 +112,14 @@ impl Plan {
         &self.space.robot
     }
 
-    /// Returns the model, or the vehicle if the points are vehicles. In contrast to [`Plan::parameters`], the
-    /// parameters of the model or vehicle do not include the parameter that names the design.
+    /// Returns the vehicle if the plan describes vehicles, and otherwise the model. In contrast to
+    /// [`Plan::parameters`], the parameters of the model or vehicle do not include the parameter that names
+    /// the design.
     pub fn simulator(&self) -> &dyn Simulator {
         &**self.robot()
     }
 
-    /// Returns the vehicle, if the points are vehicles.
+    /// Returns the vehicle, if the plan describes vehicles.
     pub fn vehicle(&self) -> Option<&Vehicle> {
         self.robot().vehicle().map(Arc::as_ref)
     }
@@ -221,7 +222,7 @@ impl Plan {
         &self.space.derived
     }
 
-    /// Returns the conditions. Points that do not satisfy all conditions are not run.
+    /// Returns the conditions. flap does not compute points that do not satisfy all conditions.
     pub fn conditions(&self) -> &[Condition] {
         &self.space.conditions
     }
@@ -258,7 +259,7 @@ impl Plan {
         &self.space.source
     }
 
-    /// Returns the selection of the points to run.
+    /// Returns the selection of the points that flap computes.
     pub fn selection(&self) -> &Selection {
         &self.selection
     }
@@ -326,12 +327,13 @@ impl Plan {
         self.space.differences.fill(values, is_set);
     }
 
-    /// Returns the number of points to run.
+    /// Returns the number of selected points, which flap computes.
     pub fn selected(&self) -> u64 {
         self.selection.len(self.len())
     }
 
-    /// Returns point number `position` of the points to run. `position` must be less than [`Plan::selected`].
+    /// Returns point number `position` of the selected points. `position` must be less than
+    /// [`Plan::selected`].
     pub fn selected_point(&self, position: u64) -> Point {
         self.point(self.selection.index(position))
     }
@@ -383,8 +385,8 @@ pub struct Output {
     /// Path that the grid file contains, relative to the working directory. If the grid file contains no
     /// path, this field is `None`.
     pub path: Option<PathBuf>,
-    /// Indices of columns in the requested order, or `None` for all columns. The indices refer to the model's
-    /// columns, followed by the measures of the plan and the columns about the run.
+    /// Indices of columns in the requested order, or `None` for all columns. The indices count first the
+    /// model's columns, then the measures of the plan, and then the columns about the run.
     pub columns: Option<Vec<usize>>,
 }
 

@@ -9,7 +9,8 @@ use flap_core::parameter::{Kind, Parameter, Preset};
 pub enum Value {
     /// A number in SI units, or the index of an option.
     Given(f64),
-    /// The parameter is not set. The text describes the parameters from which the parameter is computed.
+    /// The parameter is not set. The text describes the parameters that determine the value of this
+    /// parameter.
     Follows(&'static str),
     /// The drive frequency is set to the resonance of each design.
     Resonance,
@@ -41,7 +42,8 @@ impl Value {
         }
     }
 
-    /// Returns the number that points contain for the parameter. If no number is given, returns NaN.
+    /// Returns the number that represents this value in the list of a point's parameter values. If no number
+    /// is given, returns NaN.
     pub fn in_point(self) -> f64 {
         self.given().unwrap_or(f64::NAN)
     }

@@ -30,12 +30,12 @@ impl Edge {
     /// If the measure is known at one end only, the estimate is half of the range of the measure. If the
     /// measure is unknown at both ends, the estimate is zero.
     ///
-    /// For a parabola through both ends of the edge and a neighbouring point, the error of linear
-    /// interpolation at the middle of the edge is h² f″/8. The estimate is the mean of the errors for two
-    /// parabolas, one through the neighbouring point on each side. Beside a jump or a kink, only one of the
-    /// two parabolas contains the jump or kink. The larger of the two parabolas' errors therefore counts as
-    /// at most [`MOST_APART`] times the smaller error. If the edge connects two neighbouring values of the
-    /// axis, the estimate is the larger error, because no point between these values is known.
+    /// For a parabola through both ends of the edge and a neighbouring point, the interpolation error at the
+    /// middle of the edge is h² f″/8. The estimate is the mean of the errors for two parabolas, one through
+    /// the neighbouring point on each side. Beside a jump or a kink, only one of the two parabolas contains
+    /// the jump or kink. The larger of the two parabolas' errors therefore counts as at most [`MOST_APART`]
+    /// times the smaller error. If the edge connects two neighbouring values of the axis, the estimate is the
+    /// larger error, because no point between these values is known.
     ///
     /// If the slope along the edge is more than twice the largest slope beside the edge, the measure may have
     /// a jump. In this case, the estimate is half of the change of the measure along the edge.

@@ -75,7 +75,7 @@ pub(super) struct Mesh {
     measures: usize,
     /// Measures of all points, in the order of the points.
     measured: Vec<f64>,
-    /// Index of the point at each place, in the order in which points were added.
+    /// Index of the point at each place. Points are numbered in the order in which they were added.
     numbers: HashMap<Place, usize>,
     /// For each axis of the mesh, the lines of points that are parallel to the axis. The key of a line is the
     /// place on the line at position 0. A line maps the position of each point along the axis to the index of
@@ -86,8 +86,8 @@ pub(super) struct Mesh {
 
 /// A box that is to be halved.
 struct Halving {
-    /// Estimated error of the box times the geometric mean of its side lengths. The boxes with the largest
-    /// products are halved first.
+    /// Priority of the halving: the estimated error of the box times the geometric mean of the side lengths
+    /// of the box. Boxes with the highest priority are halved first.
     ///
     /// If boxes were halved in the order of the error alone, all points would be added at jumps, where
     /// halving does not decrease the error. If boxes were halved in the order of the error times the volume,

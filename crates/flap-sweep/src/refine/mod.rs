@@ -48,7 +48,7 @@ pub struct Refined {
     pub rounds: u64,
     /// Number of points that the refinement added to the points of the axes.
     pub added: u64,
-    /// Number of boxes between points.
+    /// Number of boxes whose corners are the points of the refined grid.
     pub boxes: u64,
     /// Number of boxes whose estimated error is too large.
     pub above: u64,
@@ -107,7 +107,8 @@ impl Refinement {
         positions
     }
 
-    /// Returns the numbers of rounds, added points and boxes of the refinement so far.
+    /// Returns the number of rounds, the number of added points and the numbers of boxes of the refinement so
+    /// far.
     pub fn refined(&self) -> Refined {
         let added = self.points - self.axes.iter().map(|(length, _)| length).product::<u64>();
         let [boxes, above, open] = self.mesh.count(&self.tolerances());

@@ -34,7 +34,7 @@ pub struct DrivenPeaks {
     /// End of the searched range (Hz) at which the stroke is larger than at every peak, if there is such an
     /// end.
     pub larger_at: Option<f64>,
-    /// Number of points that were run.
+    /// Number of points that the search has computed.
     pub points: usize,
     /// Intervals of frequencies without a periodic motion, in ascending order.
     pub gaps: Vec<Gap>,
@@ -47,7 +47,7 @@ pub struct Gap {
     pub from: f64,
     /// Highest frequency of the interval (Hz).
     pub to: f64,
-    /// Number of frequencies in the interval that were run.
+    /// Number of frequencies in the interval at which the search has computed a point.
     pub points: usize,
     /// Status of the motion, which is the same at all frequencies of the interval.
     pub status: Status,
@@ -57,7 +57,7 @@ pub struct Gap {
 ///
 /// The stroke and the pitch of each peak are measured on the motion that begins at rest. The field `range.of`
 /// is ignored. `update` computes the values that depend on the drive frequency, and returns the reason if a
-/// point with the new values cannot be run.
+/// point with the new values cannot be simulated.
 ///
 /// # Errors
 /// - [`Unfinished::Interrupted`] if the search is interrupted.

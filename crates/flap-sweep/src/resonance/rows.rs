@@ -21,7 +21,8 @@ pub struct AtResonance {
 /// Name of the column with the resonance frequency.
 pub const RESONANCE_HZ: &str = "resonance_hz";
 
-/// Name of the column with the distance between the resonance and the nearer end of the range.
+/// Name of the column with the distance between the resonance and the nearer end of the searched frequency
+/// range.
 pub const RESONANCE_MARGIN_HZ: &str = "resonance_margin_hz";
 
 /// Returns all measures that rows of a simulator can have: first the measures of the simulator, then measures

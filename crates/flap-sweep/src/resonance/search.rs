@@ -36,8 +36,8 @@ pub(super) struct Peaks {
 }
 
 impl Peaks {
-    /// Locates the highest peak on the grid, and further peaks that may be higher between the points of the
-    /// grid.
+    /// Locates the highest peak on the grid, and each peak whose true height between the points of the grid
+    /// may be larger.
     pub(super) const HIGHEST: Peaks = Peaks { contender: 0.15, from_rest: 1 };
 
     /// Locates all peaks, but at most [`MOST_TOPS`] peaks.
@@ -57,7 +57,7 @@ pub(super) struct Search<'a> {
     peaks: Peaks,
     /// Lowest and highest frequency of the search (Hz), or the reason why a search is impossible.
     ends: Result<[f64; 2], Unfinished>,
-    /// All points that were run.
+    /// All points that the search has computed.
     seen: Vec<Seen>,
     cycles: u32,
     rhs_evals: u64,
@@ -68,7 +68,7 @@ pub(super) struct Search<'a> {
     rows: Vec<Row>,
 }
 
-/// A point that the search has run.
+/// A point that the search has computed.
 pub(super) struct Seen {
     pub(super) frequency: f64,
     /// Value of the quantity to maximise, or minus infinity if the motion is not periodic.
@@ -87,8 +87,8 @@ pub(super) struct Found {
 }
 
 impl<'a> Search<'a> {
-    /// Returns a search for the peaks of one design. `point` contains the parameter values of the design, and
-    /// its drive frequency is ignored.
+    /// Returns a search for the peaks of one design. `point` contains the parameter values of the design. The
+    /// drive frequency in `point` is ignored.
     pub(super) fn new(target: &'a Target, point: Point, peaks: Peaks) -> Search<'a> {
         let ends = target.ends(&point.values);
         Search {
@@ -109,7 +109,7 @@ impl<'a> Search<'a> {
         Sequence::new(|exchange| async move { self.run(&exchange).await })
     }
 
-    /// Returns the index and the row of the design when the search has ended.
+    /// After the end of the search, returns the index and the row of the design.
     pub(super) fn into_row(mut self) -> (u64, Row) {
         let index = self.point.index;
         let mut row = match &self.ends {
@@ -135,7 +135,7 @@ impl<'a> Search<'a> {
         (index, row)
     }
 
-    /// Returns the peaks and all points that were run when the search has ended.
+    /// After the end of the search, returns the peaks and all computed points.
     ///
     /// # Errors
     /// Returns an error if the design is impossible, or has no range of frequencies to search. Also returns
@@ -248,8 +248,8 @@ impl<'a> Search<'a> {
         tops
     }
 
-    /// Runs points at the given frequencies and returns their rows. If `from_rest` is true, the points begin
-    /// at rest, and otherwise at the nearest known orbit.
+    /// Runs points at the given frequencies and returns their rows. If `from_rest` is true, the motions begin
+    /// at rest. Otherwise, each motion begins on the known orbit with the nearest frequency.
     async fn rows(&mut self, exchange: &Exchange, frequencies: &[f64], from_rest: bool) -> Vec<Row> {
         let begin = |frequency| if from_rest { None } else { self.nearest_state(frequency) };
         let points = frequencies.iter().map(|&frequency| self.point_at(frequency, begin(frequency)));
@@ -260,7 +260,7 @@ impl<'a> Search<'a> {
         rows
     }
 
-    /// Returns the latest points of the search, which were run at the given frequencies.
+    /// Returns the points that the search has computed last, one for each of the given frequencies.
     fn latest(&self, frequencies: &[f64]) -> &[Seen] {
         &self.seen[self.seen.len() - frequencies.len()..]
     }
@@ -306,8 +306,8 @@ pub(super) struct Maximum {
 }
 
 impl Maximum {
-    /// Returns a search that begins with three points `[place, value]` in ascending order of their places.
-    /// The middle point has the highest value.
+    /// Returns a search that begins with three points `[position, value]`, in ascending order of the
+    /// positions. The middle point has the highest value.
     ///
     /// At an end of the search range, the middle point is equal to the first or the last of the three points.
     pub(super) fn new(points: [[f64; 2]; 3], tolerance: f64) -> Maximum {

@@ -13,8 +13,8 @@ use std::task::{Context, Poll, Waker};
 use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 
-/// Connection between a computation and the code that runs its points. The computation stores points in the
-/// exchange, and the code stores the rows of these points.
+/// Connection between a computation and the code that simulates the points of the computation. The
+/// computation stores points in the exchange, and the code stores the rows of these points.
 #[derive(Default)]
 pub struct Exchange {
     points: Cell<Vec<Point>>,
@@ -40,7 +40,7 @@ pub struct Sequence<'a, T> {
 }
 
 impl<'a, T> Sequence<'a, T> {
-    /// Returns the computation that `work` creates. `work` receives an exchange, through which the
+    /// Returns the computation that `work` creates. `work` receives an [`Exchange`], through which the
     /// computation gets the rows of its points.
     pub fn new<F: Future<Output = T> + 'a>(work: impl FnOnce(Rc<Exchange>) -> F) -> Sequence<'a, T> {
         let exchange = Rc::new(Exchange::default());
@@ -48,7 +48,7 @@ impl<'a, T> Sequence<'a, T> {
         Sequence { exchange, work }
     }
 
-    /// Continues the computation until it ends or requires the rows of further points. Returns the result of
+    /// Continues the computation until it ends or requires the rows of its next points. Returns the result of
     /// the computation, or the points whose rows it requires.
     fn next(&mut self) -> ControlFlow<T, Vec<Point>> {
         match self.work.as_mut().poll(&mut Context::from_waker(Waker::noop())) {
@@ -71,7 +71,7 @@ impl<'a, T> Sequence<'a, T> {
     }
 
     /// Runs the computation on scalars. The result is the same as the result of [`run_all`], bit for bit. The
-    /// points are run with the settings of `run`, but with their own parameter values.
+    /// settings for the points are in `run`, but the parameter values are in the points.
     pub fn run_alone(self, rows: &dyn Rows, run: &PointRun<'_>) -> T {
         let row = |point: &Point| {
             rows.run_point(&PointRun { values: &point.values, ..*run }, point.begin.as_deref())
@@ -88,8 +88,8 @@ pub trait SequenceSource<'a> {
 
     /// Returns the next computation, or `None` if no computation is available at present.
     ///
-    /// If `idle` is true, no point is being run, so the call may wait for a computation. In this case, `None`
-    /// means that there are no further computations.
+    /// If `idle` is true, no point is being run, so the call may wait for a computation. If `idle` is true,
+    /// `None` means that all computations have been returned.
     fn next(&mut self, idle: bool) -> Option<Sequence<'a, Self::Output>>;
 
     /// Receives the result of a computation.

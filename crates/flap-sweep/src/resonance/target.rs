@@ -110,7 +110,7 @@ impl Target {
 }
 
 /// Returns the index of the drive frequency among the parameters of a model, and the index of the objective
-/// among its columns. If one of them is missing, returns `None`.
+/// among its columns. If the model has no drive frequency or no column of the objective, returns `None`.
 pub(super) fn places(model: &dyn Simulator, of: Objective) -> Option<[usize; 2]> {
     let frequency = model.parameters().iter().position(|parameter| parameter.name == DRIVE_FREQUENCY)?;
     let objective = model.columns().iter().position(|column| column.name == of.column())?;
@@ -125,8 +125,8 @@ pub(super) fn has_prescribed_stroke(parameters: &[Parameter], values: &[f64]) ->
     })
 }
 
-/// Returns the error that a point with a prescribed stroke causes. `end` is the last part of the error
-/// message.
+/// Returns the error that is reported for a point with a prescribed stroke. `end` is the last part of the
+/// error message.
 pub(super) fn prescribed(end: &str) -> Invalid {
     Invalid::new(format!("stroke_mode is \"prescribed\": the stroke is the same at every frequency, {end}"))
 }

@@ -67,8 +67,8 @@ pub enum Begun<'a> {
 pub struct Writing<'a> {
     job: &'a Job<'a>,
     target: Target,
-    /// Summary of the rows that earlier runs have written. The job continues with the first point after these
-    /// rows.
+    /// Summary of the rows that earlier runs have written. The job continues with the first point after the
+    /// rows of earlier runs.
     pub before: Summary,
     /// If the job continues a run, the number of rows that earlier runs wrote but that are missing in the
     /// file. The job computes the missing rows again.
@@ -219,7 +219,8 @@ impl Writing<'_> {
         }
     }
 
-    /// Completes the results and their sidecar. `ended` is the summary of all rows, or the error of the run.
+    /// Completes the results and their sidecar. `ended` is the summary of all rows, or the error that stopped
+    /// the run.
     ///
     /// # Errors
     /// - [`JobError::Run`] if the run failed. The written rows and the journal are kept.

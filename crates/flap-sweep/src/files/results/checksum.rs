@@ -22,8 +22,8 @@ use crate::notation::text::digits;
 /// lost if the process is killed. Larger blocks of rows would hardly make compressed files smaller.
 pub const BLOCK_ROWS: u32 = 256;
 
-/// Number of checksums in one line of a sidecar. The checksums of ten million rows take 3,300 lines. The size
-/// of these checksums is about a ten-thousandth of the size of the rows.
+/// Number of checksums in one line of a sidecar. The checksums of ten million rows take 3,300 lines. The
+/// checksums of rows are about ten thousand times smaller than the rows.
 const PER_LINE: usize = 12;
 
 /// Checksums of a result file. Some checksums are for the rows as CSV text, and one checksum is for the bytes

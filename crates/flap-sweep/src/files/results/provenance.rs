@@ -27,8 +27,8 @@ pub struct Provenance {
 }
 
 impl Provenance {
-    /// Returns the origin of the rows of `plan`. `identity` contains the version and the build of flap, and
-    /// its kind of floating-point arithmetic.
+    /// Returns the origin of the rows of `plan`. `identity` contains the version of flap, the build of flap,
+    /// and the kind of floating-point arithmetic.
     pub fn of(plan: &Plan, identity: &Identity) -> Provenance {
         let columns = Layout::of(plan).columns();
         let units = columns.iter().filter(|column| !column.unit.is_empty());
@@ -75,7 +75,7 @@ fn devices(plan: &Plan) -> Devices {
     Devices { device: device.collect() }
 }
 
-/// Returns the values that the parameters have if no axis varies them. Parameters without a base value, such
+/// Returns the values that the parameters have if no axis varies them. Parameters without a fixed value, such
 /// as computed parameters, are left out.
 pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {

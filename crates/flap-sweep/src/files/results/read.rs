@@ -161,8 +161,8 @@ impl Reader {
     /// Reads the next row into `row`. Returns false after the last row.
     ///
     /// # Errors
-    /// - [`io::ErrorKind::InvalidData`] if the row is damaged, or if its number of cells differs from the
-    ///   header.
+    /// - [`io::ErrorKind::InvalidData`] if the row is damaged, or if the row and the header have different
+    ///   numbers of cells.
     /// - The error of the operating system if the file cannot be read.
     pub fn next(&mut self, row: &mut StringRecord) -> io::Result<bool> {
         loop {

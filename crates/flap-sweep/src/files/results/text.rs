@@ -15,7 +15,7 @@ use crate::table::lines::Lines;
 const LEVEL: i32 = 3;
 
 /// Binary logarithm of the largest memory, in bytes, for decompressing a file. The command `zstd` has the
-/// same limit.
+/// same memory limit.
 const WINDOW_LOG_MAX: u32 = 27;
 
 /// Writer of CSV text: one header line, then one line per row.
@@ -111,14 +111,14 @@ impl TextRows {
         self.lines.flush()
     }
 
-    /// Returns true if the file can be truncated after the last written row. A run that continues after such
-    /// a row writes the same bytes as an uninterrupted run.
+    /// Returns true if the file can be truncated after the last written row. If a run continues from the
+    /// truncated file, the run writes the same bytes as an uninterrupted run.
     pub(crate) fn may_be_cut(&self) -> bool {
         !self.is_compressed() || self.rows_in_block == 0
     }
 
     /// Returns the number and the checksum of the written bytes. For a checkpoint, call [`TextRows::flush`]
-    /// first, so that these bytes contain all rows.
+    /// first, so that the written bytes contain all rows.
     pub(crate) fn extent(&self) -> FileSum {
         self.lines.target().file.sum()
     }

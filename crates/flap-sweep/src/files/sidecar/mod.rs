@@ -63,7 +63,7 @@ pub struct Sidecar {
     pub rerun: Option<Rerun>,
     /// Parameter along which response curves were computed; `None` if the rows contain no response curves.
     pub followed: Option<Followed>,
-    /// Values that the parameters have if no axis varies them. Parameters without a base value, such as
+    /// Values that the parameters have if no axis varies them. Parameters without a fixed value, such as
     /// computed parameters, are left out.
     parameters: BTreeMap<String, Value>,
     /// Varied parameters.

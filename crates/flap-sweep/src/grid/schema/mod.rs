@@ -13,14 +13,13 @@ use serde_json::{Value, json};
 
 use super::table::KEYS;
 
-/// Returns the JSON schema of grid files that start from the presets of `models`, in the version 2020-12 of
-/// JSON Schema.
+/// Returns the JSON schema of grid files for the `models`, in the version 2020-12 of JSON Schema.
 pub fn of_models(models: &[&'static dyn Simulator]) -> Value {
     root(models, None)
 }
 
-/// Returns the JSON schema of grid files that start from a preset of one model. In this schema, the defaults
-/// of the parameters are the values of `preset`.
+/// Returns the JSON schema of grid files for one model. In this schema, the defaults of the parameters are
+/// the values of `preset`.
 pub fn of_preset(model: &'static dyn Simulator, preset: &Preset) -> Value {
     root(&[model], Some(preset))
 }
@@ -75,9 +74,9 @@ fn either(section: &str, models: &[&'static dyn Simulator]) -> Value {
 
 /// Returns a JSON schema that applies the rules of a model if the grid file names a preset of this model.
 ///
-/// If a grid file starts from a device, its preset is in another file, and the schema cannot check the
-/// preset. If `only` is true, a grid file that starts from a device has the rules of the first model in
-/// `models`.
+/// If a grid file names a device, the preset is in the file of the device, and the schema cannot check the
+/// preset. If `only` is true, the rules of the first model in `models` apply to a grid file that names a
+/// device.
 fn by_preset(models: &[&'static dyn Simulator], only: bool) -> Value {
     let begins = json!({"if": {"required": ["device"]}, "else": {"required": ["preset"]}});
     let Some((model, others)) = models.split_first() else { return begins };

@@ -113,7 +113,7 @@ fn dimensions_are_independent() {
     }
 }
 
-/// Samples are reproducible, and other seeds give other points.
+/// Samples are reproducible, and different seeds give different points.
 #[test]
 fn samples_are_reproducible() {
     let known = [(Method::Sobol, SOBOL), (Method::LatinHypercube, LATIN_HYPERCUBE), (Method::Random, RANDOM)];

@@ -21,8 +21,9 @@ use crate::files::results::checksum::TextDigest;
 use crate::notation::text;
 use crate::table::lines::Lines;
 
-/// Reads the rows of a Parquet file as CSV text. For a file of flap, the text equals the text from which the
-/// file was written. Files of other programs are accepted if their cells are numbers, booleans or text.
+/// Reads the rows of a Parquet file as CSV text. For a file that flap wrote, the text equals the text from
+/// which the file was written. Files of other programs are accepted if their cells are numbers, booleans or
+/// text.
 pub(crate) struct ParquetReader {
     /// Column names.
     pub(crate) names: Vec<String>,
