@@ -59,7 +59,7 @@ impl Whole {
 }
 
 /// Returns true if the name `path` is free: no file has this name, or the file with this name is empty. If a
-/// link has this name, the result is false.
+/// link has the name `path`, the result is false.
 pub(crate) fn is_free(path: &Path) -> bool {
     match fs::symlink_metadata(path) {
         Ok(metadata) => metadata.is_file() && metadata.len() == 0,

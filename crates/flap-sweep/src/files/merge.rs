@@ -122,7 +122,7 @@ pub fn check(parts: &[Part], on_builds: OnBuilds) -> Result<(), MergeError> {
 }
 
 /// Returns the settings that determine the rows of a shard, without the number of the shard and without the
-/// build of flap. These settings are equal for all shards of one sweep.
+/// build of flap. The returned settings are equal for all shards of one sweep.
 fn shared(sidecar: &Sidecar) -> Identity {
     let (flap, build) = (String::new(), String::new());
     Identity { flap, build, selection: Selection::All.to_string(), ..sidecar.identity.clone() }

@@ -66,8 +66,8 @@ impl CreateError {
 /// - [`CreateError::Unfinished`] if `overwrite` is false and there is a journal, either of the file or of a
 ///   new file that will replace the file.
 /// - [`CreateError::InTheWay`] if a file of another program has the name of the sidecar or of the lock file.
-///   If `overwrite` is false, an existing sidecar also causes this error. The exception is a sidecar of a run
-///   that was killed before its first row.
+///   If `overwrite` is false, an existing sidecar causes the same error as a file of another program. The
+///   exception is a sidecar of a run that was killed before its first row.
 /// - [`CreateError::Busy`] if another run has locked the file.
 /// - [`CreateError::Io`] if the file cannot be opened.
 pub fn create(path: &Path, overwrite: bool) -> Result<(File, Option<Lock>), CreateError> {

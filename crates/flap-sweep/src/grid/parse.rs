@@ -295,8 +295,8 @@ fn read_points<'n>(
     Points { base, differences, axes, sample_file, resonance, body, derived, conditions, unreached, names }
 }
 
-/// Returns the value that each parameter has without the sample. This value is the default mean of a normal
-/// distribution.
+/// Returns the value that each parameter has without the sample. The value without the sample is the default
+/// mean of a normal distribution.
 ///
 /// If a parameter of one wing is not set, it has the value of the corresponding parameter of all wings. The
 /// rule does not apply if `moved`, the list of varied, sampled and derived parameters, contains the parameter

@@ -22,7 +22,8 @@ pub(super) fn sets_resonance(entry: &Entry<'_>) -> bool {
 }
 
 /// If the section `[params]` requests rows at the resonance of each design, returns the object that computes
-/// these rows. In this case, the function sets the drive frequency in `base` to [`Value::Resonance`].
+/// these rows. For rows at the resonance, the function sets the drive frequency in `base` to
+/// [`Value::Resonance`].
 pub(super) fn read(
     root: &[Entry<'_>],
     simulator: &'static dyn Simulator,

@@ -12,7 +12,8 @@ use super::sample::{Distribution, SamplePoints, normal_quantile};
 pub enum Values {
     /// Values from a list.
     List(Vec<f64>),
-    /// Values from a list that a program provides. These values are not checked, and may be out of range.
+    /// Values from a list that a program provides. The values from a program are not checked, and may be out
+    /// of range.
     Unchecked(Vec<f64>),
     /// `count` equidistant values from `from` to `to`, both included.
     Linear {

@@ -200,7 +200,7 @@ impl Plan {
     }
 
     /// Returns the plan whose rows also contain the state of the motion at the beginning of a drive period.
-    /// Motions of other plans can begin at this state.
+    /// You can use the state as the initial state of motions in a different plan.
     ///
     /// # Errors
     /// [`ChangeError::AtResonance`], [`ChangeError::OfBody`] or [`ChangeError::NoMotions`] if rows cannot
@@ -216,8 +216,8 @@ impl Plan {
         of_model.chain(self.measures().iter().map(|own| own.name.as_str()))
     }
 
-    /// Returns the plan without its preset. Parameters in `given` are set or varied later. All other
-    /// parameters have their default values, or are computed from other parameters.
+    /// Returns the plan without its preset. Parameters in `given` are set or varied later. Parameters that
+    /// are not in `given` have their default values, or are computed from other parameters.
     ///
     /// # Errors
     /// [`ChangeError::Missing`] if a parameter is not in `given`, has no default, and is not computed from

@@ -30,15 +30,15 @@ impl Edge {
     /// If the measure is known at one end only, the estimate is half of the range of the measure. If the
     /// measure is unknown at both ends, the estimate is zero.
     ///
-    /// For a parabola through both ends of the edge and a neighbouring point, the interpolation error at the
-    /// middle of the edge is h² f″/8. The estimate is the mean of the errors for two parabolas, one through
-    /// the neighbouring point on each side. Beside a jump or a kink, only one of the two parabolas contains
-    /// the jump or kink. The larger of the two parabolas' errors therefore counts as at most [`MOST_APART`]
-    /// times the smaller error. If the edge connects two neighbouring values of the axis, the estimate is the
+    /// For a parabola through the edge's ends and a neighbouring point, the interpolation error at the middle
+    /// of the edge is h² f″/8. The estimate is the mean of the errors for two parabolas, one through the
+    /// neighbouring point on each side. Beside a jump or a kink, only one of the two parabolas contains the
+    /// jump or kink. The larger of the two parabolas' errors therefore counts as at most [`MOST_APART`] times
+    /// the smaller error. If the edge connects two neighbouring values of the axis, the estimate is the
     /// larger error, because no point between these values is known.
     ///
     /// If the slope along the edge is more than twice the largest slope beside the edge, the measure may have
-    /// a jump. In this case, the estimate is half of the change of the measure along the edge.
+    /// a jump. For a possible jump, the estimate is half of the change of the measure along the edge.
     pub(super) fn error(&self, tolerance: &Tolerance) -> f64 {
         if tolerance.error > 0.0 { self.size(tolerance.range) / tolerance.error } else { 0.0 }
     }
@@ -84,7 +84,8 @@ impl Edge {
 ///
 /// If a measure is smooth, halving a box reduces the error along the halved axis to a quarter. If the measure
 /// has a jump, halving does not reduce the error. The error along an axis is therefore divided by two for
-/// each earlier halving of the box along this axis. In this way, a box at a jump is halved along all axes.
+/// each earlier halving of the box along this axis. With this division, a box at a jump is halved along all
+/// axes and not only along one axis.
 pub(super) fn axis(errors: &[f64], halvings: &[u32], most: u32) -> Option<usize> {
     let share = 1.0 / errors.len() as f64;
     let weight = |axis: usize| errors[axis] * libm::exp2(-f64::from(halvings[axis]));

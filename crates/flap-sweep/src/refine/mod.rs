@@ -1,6 +1,6 @@
 //! Refines a grid: chooses the points that are added after the points of the axes.
 //!
-//! The points of the axes are the corners of boxes. When the rows of these points exist, flap estimates the
+//! The points of the axes are the corners of boxes. When the rows of all corners exist, flap estimates the
 //! error of a multilinear interpolation within each box (`estimate`). Boxes with large errors are halved, and
 //! the midpoints of their edges are the next points (`mesh`). Points are added in rounds until all estimated
 //! errors are small enough, or the plan has `max_points` points.
@@ -79,7 +79,7 @@ impl Refinement {
         Some(refinement)
     }
 
-    /// Receives the row of the next point. `cell` returns the number in a column of this row, or NaN if the
+    /// Receives the row of the next point. `cell` returns the number in a column of the row, or NaN if the
     /// number is unknown or the point is excluded.
     pub(crate) fn add(&mut self, cell: impl Fn(usize) -> f64) {
         let measures: Vec<f64> = self.columns.iter().map(|&column| cell(column)).collect();

@@ -1,8 +1,9 @@
 //! Searches for the resonance of one design.
 //!
 //! First, the search runs points on a grid of frequencies, from which it selects the highest peaks. Then
-//! [`Maximum`] locates these peaks accurately. In this second step, each motion begins on the known orbit
-//! with the nearest frequency. Such a motion settles in about half the time of a motion from rest.
+//! [`Maximum`] locates the selected peaks accurately. In this second step, each motion begins on the known
+//! orbit with the nearest frequency. A motion that begins on a known orbit settles in about half the time of
+//! a motion from rest.
 //!
 //! The row at a resonance describes the motion that begins at rest, like every row of a sweep. If this motion
 //! differs from the motion that the search found at the same frequency, the design has more than one orbit.

@@ -79,9 +79,9 @@ impl<'a> Job<'a> {
 
     /// Ends a job whose results at `place` are already complete.
     ///
-    /// If `has_journal` is true, a run was killed after its last row but before it removed its journal. In
-    /// this case, the function gives the results their final name and removes the journal. If `has_journal`
-    /// is false, the function does not change the results.
+    /// If `has_journal` is true, a run was killed after its last row, but before it removed its journal. With
+    /// a journal, the function gives the results their final name if necessary, and then removes the journal.
+    /// If `has_journal` is false, the function does not change the results.
     fn end_complete<'b>(
         &self,
         place: &Path,

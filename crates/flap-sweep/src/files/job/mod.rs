@@ -186,7 +186,7 @@ impl<'a> Job<'a> {
         Sidecar::new(self.plan, started, &self.options.run, self.origin.clone())
     }
 
-    /// Returns the state of a job that continues after the rows that `before` counts.
+    /// Returns a job that is ready to write rows after the rows that `before` counts.
     fn writing(&'a self, target: Target, before: Summary, lost: Option<u64>, locks: Vec<Lock>) -> Begun<'a> {
         Begun::Writing(Box::new(Writing { job: self, target, before, lost, locks, begun: Instant::now() }))
     }

@@ -157,8 +157,8 @@ impl Reader<'_, '_> {
         None
     }
 
-    /// Returns the distribution if values can be drawn from it. Otherwise, reports a mistake and returns
-    /// `None`.
+    /// Returns the distribution if values can be drawn from it. If no values can be drawn, reports a mistake
+    /// and returns `None`.
     fn checked(&mut self, distribution: Distribution) -> Option<Distribution> {
         let mistake = match distribution {
             Distribution::Uniform { from, to }

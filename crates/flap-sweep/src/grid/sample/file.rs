@@ -180,8 +180,8 @@ type Cell<'t> = (&'t str, Range<usize>);
 
 /// Returns the cells of each line of a CSV file, without blank lines.
 ///
-/// Numbers, units and options contain no commas, so a comma always ends a cell, even between quotes. For this
-/// reason, the position of each cell in the file can be computed.
+/// Numbers, units and options contain no commas, so a comma always ends a cell, even between quotes. The
+/// function therefore computes the position of each cell in the file from the lengths of the preceding cells.
 fn lines(text: &str) -> impl Iterator<Item = Vec<Cell<'_>>> {
     let reader = csv::ReaderBuilder::new()
         .has_headers(false)

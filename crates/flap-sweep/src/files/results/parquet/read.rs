@@ -205,8 +205,8 @@ impl ChunkReader for Limited {
 /// Reads the size of the decompressed page from the header of a page. The size is the second field of the
 /// header.
 ///
-/// Returns `None` if the bytes are not the header of a page. In this case, the parquet crate reports the
-/// mistake.
+/// Returns `None` if the bytes are not the header of a page. If the header of a page is damaged, the parquet
+/// crate reports the mistake.
 fn declared(header: &[u8]) -> Option<u64> {
     let (_, rest) = number(header)?;
     let (size, _) = number(rest)?;
