@@ -117,7 +117,7 @@ pub(crate) fn respond<'py>(
     Ok(dict)
 }
 
-/// Returns the plan of a design, and the followed parameter with its steps.
+/// Returns the plan of a design, and the parameter of the response with its steps.
 ///
 /// # Errors
 /// Returns a Python exception if the design or an argument contains a mistake.

@@ -5,7 +5,7 @@ use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate::{NoSlope, Simulator};
 use flap_core::vehicle::standing;
 
-/// Change of a parameter for which derivatives are given.
+/// Unit of the parameter change in a derivative: one per cent or one SI unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Per {
     /// The derivative is the change of the measure per one per cent of the parameter.
@@ -30,8 +30,8 @@ pub fn column_name(of: &str, by: &str, per: Per) -> String {
     }
 }
 
-/// Splits a name that [`column_name`] returned into the measure, the parameter and the change. If the name
-/// has another form, returns `None`.
+/// Splits a name that [`column_name`] returned into the measure, the parameter and the unit of the change. If
+/// `column` is not the name of a column with a derivative, returns `None`.
 ///
 /// ```
 /// use flap_sweep::derivative::{Per, parts};
@@ -140,9 +140,9 @@ pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
 /// Returns the typical size of a parameter in SI units.
 ///
 /// For a parameter of one wing or a left-right difference, the typical size is the reference size of the
-/// parameter of all wings. For any other parameter, the typical size is the largest published value, or a
-/// usual value for insect-scale robots. A parameter with published values has a typical size only if its
-/// value is small.
+/// parameter of all wings. If a parameter is of neither kind, its typical size is the largest published
+/// value, or a usual value for insect-scale robots. A parameter with published values has a typical size only
+/// if its value is small.
 fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let parameters = simulator.parameters();
     let parameter = &parameters[index];

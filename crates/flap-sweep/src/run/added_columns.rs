@@ -55,15 +55,16 @@ pub fn add_columns(
     true
 }
 
-/// Returns the size by which changes of a parameter are divided, or `None` if this size is unknown. If the
-/// value of the parameter is zero and derivatives refer to a change of 1 %, the result is also `None`.
+/// Returns the reference size of a parameter, or `None` if the size is unknown. The result is also `None` if
+/// the parameter is zero and derivatives refer to a change of 1 %.
 fn size_at(plan: &Plan, per: Per, point: &Point, parameter: usize) -> Option<f64> {
     let value = standing(plan.parameters(), &point.values, parameter);
     let has_shares = per == Per::Unit || value != 0.0;
     size(plan.simulator(), &point.values, parameter).filter(|_| has_shares)
 }
 
-/// Returns the parameter values of a point after one parameter is increased by `share` times its size.
+/// Returns the parameter values of a point in which one parameter is increased by `share` times the reference
+/// size of this parameter.
 fn changed(plan: &Plan, per: Per, point: &Point, parameter: usize, share: f64) -> Vec<f64> {
     let size = size_at(plan, per, point, parameter);
     let shared = standing(plan.parameters(), &point.values, parameter);

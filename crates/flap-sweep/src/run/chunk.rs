@@ -48,8 +48,8 @@ pub fn chunk(
 }
 
 impl Chunk {
-    /// Returns the chunk for use in a larger plan, in which the first point of the chunk has the position
-    /// `begin`.
+    /// Returns the chunk with `begin` as the position of its first point. A chunk needs a new position if its
+    /// points are part of a larger plan.
     pub fn beginning_at(self, begin: u64) -> Chunk {
         Chunk { begin, ..self }
     }
@@ -82,12 +82,12 @@ impl Chunk {
         }
     }
 
-    /// Returns the outcomes of the points in the chunk. The chunk must come from the same `plan`, and its
-    /// first point must have the position `next`.
+    /// Returns the outcomes of the points in the chunk. The chunk must be computed from `plan`, and the first
+    /// point of the chunk must have the position `next`.
     ///
     /// # Errors
-    /// [`RunError::Chunk`] if the chunk is empty, has different points, or comes from a different plan, build
-    /// or arithmetic.
+    /// [`RunError::Chunk`] if the chunk is empty, or its points do not begin at `next`. [`RunError::Chunk`]
+    /// also if plan, build or arithmetic differ from the plan, build and arithmetic of the chunk.
     pub fn outcomes(self, plan: &Plan, options: &RunOptions, next: u64) -> Result<Vec<Outcome>, RunError> {
         let differences = Identity::of(plan, options).differences(&self.identity);
         if !differences.is_empty() {

@@ -43,15 +43,15 @@ pub struct Identity {
     pub points_file: Option<String>,
     /// Text that describes which points of the plan are selected.
     pub selection: String,
-    /// For response curves: name of the followed parameter, number of its values, and a hash of these values
-    /// and of the other parameters. `None` if the rows belong to points and not to responses.
+    /// For response curves: name of the parameter that rises and falls, number of its values, and a hash of
+    /// the values of all parameters. `None` if the run computes points and not responses.
     pub followed: Option<String>,
     /// Solver settings.
     pub solver: SolverSettings,
 }
 
 impl Identity {
-    /// Returns the identity of the rows that `plan` and `options` give.
+    /// Returns the identity of the rows that a run with `plan` and `options` computes.
     pub fn of(plan: &Plan, options: &RunOptions) -> Identity {
         Identity {
             flap: env!("CARGO_PKG_VERSION").to_owned(),
@@ -111,7 +111,8 @@ impl Identity {
     }
 }
 
-/// Returns a hash for the text of each device, separated by spaces. Returns `None` if there are no devices.
+/// Returns the hashes of the device files as one text, separated by spaces. Returns `None` if there are no
+/// devices.
 pub(crate) fn devices(devices: &[Source]) -> Option<String> {
     let hashes: Vec<String> = devices.iter().map(|device| text::hash(&device.text)).collect();
     (!hashes.is_empty()).then(|| hashes.join(" "))
@@ -128,7 +129,7 @@ fn selection(plan: &Plan) -> String {
     format!("{selection}, {} added points ({:016x})", plan.added().len(), xxh3_64(&bytes))
 }
 
-/// Returns a text that describes the followed parameter of a response.
+/// Returns a text that describes the parameter that rises and falls in a response.
 ///
 /// The command line may set parameters that are not in the grid file. The hash in the text therefore covers
 /// the values of all parameters.

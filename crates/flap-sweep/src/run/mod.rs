@@ -71,8 +71,8 @@ pub struct RunOptions {
     pub grace: Duration,
 }
 
-/// Default of [`RunOptions::grace`]. The grace time is long enough for ordinary points, and a stop still
-/// takes less than a second in total.
+/// Default of [`RunOptions::grace`]. Ordinary points finish within this time, and a stop takes less than a
+/// second in total.
 const GRACE: Duration = Duration::from_millis(400);
 
 impl RunOptions {
@@ -85,8 +85,8 @@ impl RunOptions {
 }
 
 impl Default for RunOptions {
-    /// Returns the best instruction set of the machine, one thread per core, a window of a few megabytes, and a grace
-    /// time of 0.4 s.
+    /// Returns the best instruction set of the machine, one thread per core, a window of a few megabytes, and
+    /// 0.4 s for the last points after a stop.
     fn default() -> Self {
         let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         RunOptions { instructions: Backend::best(), threads, window: 16_384, grace: GRACE }
@@ -114,8 +114,8 @@ pub enum RunError {
     /// The threads could not be started.
     #[error("cannot start the worker threads: {0}")]
     Threads(#[source] io::Error),
-    /// The model returned a wrong number of measures, or rows for wrong points. An error of the kind `Model`
-    /// is caused by a bug in the program of the model.
+    /// The model returned a wrong number of measures, or rows for wrong points. A bug in the code of the
+    /// model causes this error.
     #[error("bug in the model: {0}")]
     Model(String),
     /// Rows from another process are not the expected rows of this run.

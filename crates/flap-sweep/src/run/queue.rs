@@ -3,10 +3,11 @@
 //!
 //! The queue cannot deadlock, for the following reasons. A worker thread waits only if the thread has no
 //! unfinished unit of work and the window is full. If the next outcome is in the window, the collecting
-//! thread removes the outcome, and the window has room again. If the next outcome is missing, another worker
-//! is computing it, and this worker does not wait. Each worker calls `leave` at its end, even after a panic.
-//! If a worker ends before its units of work are finished, the run fails. The collecting thread waits only
-//! while at least one worker runs. When a run is dropped, its workers are aborted.
+//! thread removes the outcome, and the window has room again. If the next outcome is missing, a worker is
+//! still computing this outcome, and a worker that computes does not wait. Each worker calls `leave` at its
+//! end, even after a panic. If a worker ends before its units of work are finished, the run fails. The
+//! collecting thread waits only while at least one worker runs. When a run is dropped, its workers are
+//! aborted.
 //!
 //! After a stop, workers have a short time to finish their units of work. Units of work that are not finished
 //! after this time are discarded.
@@ -241,7 +242,7 @@ impl<T> Window<T> {
     }
 
     /// Stores the outcome of the unit of work with the number `index`. Returns false if this unit was not
-    /// assigned, already has an outcome, or was already taken.
+    /// assigned, or if an outcome of this unit was already stored.
     pub(super) fn insert(&mut self, index: u64, outcome: T) -> bool {
         let place = index.checked_sub(self.taken).and_then(|place| usize::try_from(place).ok());
         match place.and_then(|place| self.outcomes.get_mut(place)) {
@@ -277,13 +278,14 @@ impl<T> Window<T> {
         }
     }
 
-    /// Records that all taken outcomes are written. The window then has room for the same number of new units
-    /// of work.
+    /// Records that all outcomes that were removed from the window are written. For each written outcome, the
+    /// window then has room for one new unit of work.
     pub(super) fn mark_written(&mut self) {
         self.written = self.taken;
     }
 
-    /// Returns the number of all finished units of work, including units whose outcomes are already taken.
+    /// Returns the number of all finished units of work, including units whose outcomes were already removed
+    /// from the window.
     pub(super) fn finished(&self) -> u64 {
         self.taken + self.waiting as u64
     }

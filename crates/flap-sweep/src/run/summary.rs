@@ -10,7 +10,8 @@ use crate::refine::Refined;
 use crate::resonance::RESONANCE_MARGIN_HZ;
 use crate::vehicle::{HOVER_RESIDUAL, TRIM_LIMIT};
 
-/// Number of rows with each status. Files contain these numbers as a table with the names of the statuses.
+/// Number of rows with each status. In files, these numbers are a table whose keys are the names of the
+/// statuses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "HashMap<Status, u64>", into = "BTreeMap<&'static str, u64>")]
 pub struct Counts([u64; Status::ALL.len()]);
@@ -39,7 +40,7 @@ impl From<Counts> for BTreeMap<&'static str, u64> {
     }
 }
 
-/// Numbers of rows whose measures may be unreliable, for each of four reasons.
+/// For each of four reasons why measures may be unreliable, the number of rows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Warnings {
     /// Number of rows whose error estimate exceeds the requested accuracy.
@@ -79,7 +80,8 @@ pub struct Summary {
     pub points: u64,
     /// Number of points or designs whose rows are all written.
     pub ran: u64,
-    /// If the response curve of a design is only partly written, number of its written rows. Otherwise zero.
+    /// Number of written rows of a response curve that is only partly written. Zero if every response curve
+    /// is complete.
     pub begun: u64,
     /// Number of written rows.
     pub rows: u64,
@@ -107,8 +109,8 @@ impl Summary {
     /// Largest number of points in [`Summary::invalid`].
     const MOST_INVALID: usize = 5;
 
-    /// Returns the summary `before` of the written rows, with the current number of points and the conditions
-    /// of `plan`.
+    /// Returns a copy of the summary `before`, in which the number of points and the conditions are replaced
+    /// by the values of `plan`.
     pub(super) fn after(before: Summary, plan: &Plan) -> Summary {
         let counted = |name: &str| before.unsatisfied.iter().find(|known| known.condition == name);
         let unsatisfied = plan.conditions().iter().map(|condition| Unsatisfied {
@@ -162,7 +164,8 @@ impl Summary {
             u64::from(measure(limits.residual).is_some_and(|share| share > TRIM_LIMIT));
     }
 
-    /// Adds the summary `other`, which counts further points of the same plan.
+    /// Adds the numbers of `other` to this summary. The two summaries must count different points of one
+    /// plan.
     pub fn add_all(&mut self, other: &Summary) {
         self.points += other.points;
         self.ran += other.ran;

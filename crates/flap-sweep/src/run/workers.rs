@@ -17,9 +17,9 @@ type Work<T> = dyn Fn(&mut Worker<'_, T>) + Send + Sync;
 /// An iterator over the outcomes of units of work, for example the rows of points, in the order of the units.
 ///
 /// The worker threads start when the caller requests the first outcome, and end when the run is dropped. The
-/// threads compute at most [`RunOptions::window`] units of work ahead of the last returned outcome. The
-/// iterator returns an error as its last item. The outcomes before the error are the outcomes of the first
-/// units of work, without gaps.
+/// threads compute at most [`RunOptions::window`] units of work ahead of the last returned outcome. If the
+/// run fails, the last item of the iterator is the error. The outcomes before the error are the outcomes of
+/// the first units of work, without gaps.
 pub struct Run<T> {
     queue: Arc<Queue<T>>,
     work: Arc<Work<T>>,
@@ -60,8 +60,9 @@ impl<T: Send + 'static> Run<T> {
     /// Otherwise use the run as an iterator.
     ///
     /// # Errors
-    /// [`RunError`] if a worker thread panics or cannot be started, or if the model returns wrong rows. The
-    /// outcomes of earlier units of work are returned before the error.
+    /// [`RunError`] if a worker thread panics or cannot be started, or if the model returns wrong rows.
+    /// Before the error, the function returns the outcomes of all units of work before the first missing
+    /// outcome.
     pub fn next_batch(&mut self) -> Result<Option<Vec<T>>, RunError> {
         self.start();
         match self.queue.next_batch() {
@@ -137,7 +138,7 @@ pub(crate) struct Worker<'a, T> {
 }
 
 impl<T> Worker<'_, T> {
-    /// Returns the number of the next unit of work, or `None` if no unit is available now.
+    /// Returns the number of the next unit of work, or `None` if no unit is available at present.
     ///
     /// `idle` is true if the worker has no unfinished units of work. If `idle` is true, the call may wait,
     /// and after the result `None` the worker must end.

@@ -1,9 +1,9 @@
 //! Studies of a plan: response curves, comparisons with the preset, and parameters that should change
 //! together.
 //!
-//! Further studies compute the most important parameters, effects of terms, excluded points, optima, and
-//! quadratic maps of vehicles. The module also contains experiments on single points, and finds inputs of
-//! vehicles by their names.
+//! The module also computes the parameters with the largest effects, the effects of terms in the equations,
+//! excluded points, optima, and quadratic maps of vehicles. The module simulates experiments for single
+//! points, and finds inputs of vehicles by their names.
 
 pub mod deviation;
 pub mod experiment;

@@ -69,7 +69,7 @@ pub fn slopes(
 }
 
 /// Returns the parameters that can have small relative changes. Parameters that are zero, not set, whole
-/// numbers, choices, derived, or inputs of hover are left out.
+/// numbers, choices, derived, or inputs that the search for hover changes are left out.
 fn changing(plan: &Plan, values: &[f64]) -> Vec<usize> {
     let parameters = plan.parameters().iter().enumerate();
     let changing = parameters.filter(|(index, parameter)| {

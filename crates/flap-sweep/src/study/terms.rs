@@ -47,9 +47,9 @@ pub struct Effect {
     pub parameter: usize,
     /// Value of the parameter in the unchanged design.
     pub before: f64,
-    /// Value of the parameter after the change.
+    /// Value of the parameter after the term is switched on or off.
     pub after: f64,
-    /// Row of the design after the change.
+    /// Row of the design after the term is switched on or off.
     pub row: Row,
 }
 

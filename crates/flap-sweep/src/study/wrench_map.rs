@@ -24,8 +24,8 @@ const LEFT_OUT: usize = 5;
 /// Smallest number of samples. With ten samples, two rows are left out of the fit to test the map.
 const FEWEST_SAMPLES: usize = 10;
 
-/// The coefficients are unique if the smallest singular value of the fit is above this fraction of the
-/// largest singular value.
+/// The coefficients are unique if the smallest singular value of the fit's matrix is above this fraction of
+/// the largest singular value.
 const SMALLEST_SINGULAR: f64 = 1e-9;
 
 /// If a component of the wrench changes by less than this fraction of the largest component, the component
@@ -120,7 +120,7 @@ pub struct WrenchMap {
     pub fitted: usize,
     /// Number of rows that were left out of the fit to test the map.
     pub left_out: usize,
-    /// Rows without a periodic motion, which are not used: the number of rows with each status.
+    /// For each status without a periodic motion, the number of rows. These rows are not used.
     pub unused: Vec<(Status, usize)>,
     /// Largest magnitude of the Floquet multipliers among all rows with a periodic motion. NaN if unknown.
     pub floquet_max: f64,
@@ -260,8 +260,8 @@ impl WrenchMap {
         )
     }
 
-    /// Returns the coefficients for inputs in SI units, which are not scaled. The order of the coefficients
-    /// is the same as in [`WrenchMap::scaled`].
+    /// Returns the coefficients for inputs in SI units, instead of inputs that are scaled to the range -1 to
+    /// 1. The order of the coefficients is the same as in [`WrenchMap::scaled`].
     pub fn physical(&self) -> DMatrix<f64> {
         let terms = terms(self.inputs.len());
         let place = |wanted: &[usize]| terms.iter().position(|term| term == wanted).unwrap_or_default();
@@ -340,7 +340,7 @@ impl WrenchMap {
     }
 
     /// Returns the number of rows in the fit (`fitted`) and left out of the fit (`left_out`). The list
-    /// continues with the statuses of unused rows and their numbers.
+    /// continues with the number of unused rows for each status.
     pub fn rows(&self) -> Vec<(&'static str, usize)> {
         let unused = self.unused.iter().map(|(status, rows)| (status.name(), *rows));
         [("fitted", self.fitted), ("left_out", self.left_out)].into_iter().chain(unused).collect()

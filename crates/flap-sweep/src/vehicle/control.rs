@@ -115,9 +115,9 @@ impl Input {
 
     /// Returns the points before and after a small change of the input, from which derivatives are computed.
     ///
-    /// If the parameter is zero and cannot be negative, the difference is one-sided, except at rest. At rest,
-    /// mean forces grow with the square of the change, and only a central difference gives the derivative,
-    /// which is zero.
+    /// If the parameter is zero and cannot be negative, the finite difference is one-sided, except at rest.
+    /// At rest, mean forces grow with the square of the change, and only a central difference gives the
+    /// derivative, which is zero.
     pub(super) fn change(
         &self,
         vehicle: &Vehicle,
@@ -302,7 +302,8 @@ impl VehicleRun<'_> {
     ///
     /// In the four-bar model, an exact derivative with respect to the body's motion may not exist, because
     /// forces have kinks. If an exact derivative does not exist, a central difference replaces the
-    /// derivative. If a parameter of one wing is not set, the function uses its value for all wings.
+    /// derivative. If a parameter of one wing is not set, the function uses the value of the parameter for
+    /// all wings.
     ///
     /// # Errors
     /// Returns an error if an input has no value, if the motion is not periodic, or if a derivative is missing.
@@ -347,8 +348,8 @@ impl VehicleRun<'_> {
         })
     }
 
-    /// Returns the derivatives of the six components, or an error if a derivative is missing. `ahead`
-    /// contains the parameter values after a small change of the input.
+    /// Returns the derivatives of the six components of force and torque, or an error if a derivative is
+    /// missing. `ahead` contains the parameter values after a small change of the input.
     fn slopes(
         &self,
         ahead: &[f64],
@@ -375,7 +376,8 @@ impl VehicleRun<'_> {
         Some(if component < 3 { VELOCITY_STEP } else { RATE_STEP })
     }
 
-    /// Computes the derivatives of the six components with respect to an input by central differences.
+    /// Computes the derivatives of the six components of force and torque with respect to an input by central
+    /// differences.
     ///
     /// In the four-bar model, exact derivatives do not exist at some points, because the lift of each strip
     /// of the wing jumps.
@@ -419,8 +421,8 @@ pub(super) fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) ->
 }
 
 impl Effectiveness {
-    /// Returns a copy of `values`, the vehicle's parameter values, in which the inputs have the values of
-    /// this control effectiveness.
+    /// Returns a copy of `values`, the vehicle's parameter values, in which the inputs have the values that
+    /// this control effectiveness contains.
     pub fn applied(&self, values: &[f64]) -> Vec<f64> {
         let mut values = values.to_vec();
         for (input, value) in self.inputs.iter().zip(&self.values) {
@@ -429,7 +431,7 @@ impl Effectiveness {
         values
     }
 
-    /// Removes the inputs with a negligible effect. If all effects are zero, all inputs stay.
+    /// Removes the inputs with a negligible effect. If all effects are zero, no input is removed.
     pub fn without_idle(mut self, vehicle_run: &VehicleRun<'_>, values: &[f64]) -> Effectiveness {
         let effects = self.inputs.iter().enumerate().map(|(j, input)| {
             let size = input.size(vehicle_run.vehicle, values).unwrap_or_default() / input.factor;

@@ -33,7 +33,8 @@ pub struct FlightRequest {
     /// Velocities (m/s), rates (rad/s) and angles (rad) of the body at the beginning of the flight, without
     /// the vibration during a wing beat.
     pub disturbance: [f64; FED_BACK],
-    /// The inputs of the vehicle that the feedback changes. The record has one column for each input.
+    /// The inputs of the vehicle that the feedback changes. The record of the flight has one column for each
+    /// input.
     pub inputs: Vec<Input>,
     /// Gains K of the feedback, in SI units: K x is subtracted from the initial inputs, where x contains the
     /// states. The matrix has one row for each input and [`FED_BACK`] columns.
@@ -51,7 +52,7 @@ pub struct FlightRequest {
 pub struct FlightRecord {
     /// Names of the columns: time, states, inputs, force and torque.
     pub columns: Vec<String>,
-    /// The rows of the record. A row with means over a beat has the time in the middle of the beat.
+    /// The rows of the flight record. A row with means over a beat has the time in the middle of the beat.
     pub rows: Vec<Vec<f64>>,
     /// The reason why the flight ended early. `None` if the flight has its full duration.
     pub end: Option<String>,
@@ -74,7 +75,7 @@ pub enum FlightError {
 /// # Errors
 /// Returns an error if the settings are not allowed, if mass properties are missing, or if parameters set a
 /// motion of the body. A motion of the wings that is not periodic at the beginning is also an error. If the
-/// simulation fails later, the record ends early and contains the reason.
+/// simulation fails during the flight, the record ends early and contains the reason.
 pub fn fly(
     vehicle_run: &VehicleRun<'_>,
     values: &[f64],
@@ -275,8 +276,8 @@ impl<'a> Coupled<'a> {
         self.y.resize(self.integrator.scale.len(), 0.0);
     }
 
-    /// Returns the mean velocities, rates and angles over the first beat that only the vibration of the body
-    /// causes.
+    /// Returns the part of the mean velocities, rates and angles over the first beat that results only from
+    /// the vibration of the body.
     ///
     /// The result is the mean over a beat that begins at rest, minus half of the value at the end of the
     /// beat. For a linear change that begins at rest, the mean is half of the end value.

@@ -28,7 +28,7 @@ const OF_HOVER: usize = 3;
 /// weight.
 pub(crate) const HOVER_RESIDUAL: &str = "hover_residual";
 
-/// Computes the rows of a vehicle at hover, or with the damping matrix as further columns, or both.
+/// Computes the rows of a vehicle at hover, or rows that also contain the damping matrix, or both.
 ///
 /// A row begins with the measures of the vehicle. At hover, the row continues with the growth rate and the
 /// period of the fastest-growing mode. The next columns are the largest unbalanced force or torque, and the
@@ -113,8 +113,8 @@ impl BodyRows {
         values
     }
 
-    /// Returns the derivatives of the measures of `row`. The row must come from this source of rows, for the
-    /// parameter values of `run`.
+    /// Returns the derivatives of the measures of `row`. This source of rows must have computed the row for
+    /// the parameter values of `run`.
     ///
     /// If a parameter changes at hover, the inputs also change, so that the vehicle keeps hovering. The
     /// growth rate, the period, the residual and the damping matrix have no derivatives.

@@ -10,7 +10,8 @@ use super::control::{COMPONENTS, ControlError, Effectiveness, Input, VehicleRun,
 const MOST_STEPS: usize = 40;
 
 /// A target is reached if the deviation from the target is at most this fraction of the target. If Newton's
-/// iteration cannot come closer, a deviation up to the numerical error of the row is also accepted.
+/// iteration cannot reduce the deviation to this fraction, a deviation up to the numerical error of the row
+/// is also accepted.
 const TOLERANCE: f64 = 1e-6;
 
 /// Largest deviation that is accepted because of the row's numerical error, as a fraction of the largest
@@ -45,8 +46,8 @@ pub struct Trim {
 /// Searches inputs at which the vehicle reaches the `targets`, by Newton's iteration with exact derivatives.
 /// The search begins at the parameter values `values`.
 ///
-/// If there are more inputs than targets, many steps lead to the targets. Of these steps, the iteration uses
-/// the shortest step, measured in typical sizes of the inputs.
+/// If there are more inputs than targets, Newton's equation has many solutions. The iteration uses the
+/// solution with the shortest step, measured in typical sizes of the inputs.
 ///
 /// # Errors
 /// An error if there are fewer inputs than targets, if the first motion is not periodic, or if the iteration

@@ -24,7 +24,7 @@ const STEP_WITH_SEARCH: f64 = 2e-2;
 #[derive(Clone, Debug)]
 pub(super) struct Trial {
     pub(super) coordinates: Vec<f64>,
-    /// Values of the parameters that are tried one by one (see
+    /// Values of the parameters that do not vary continuously (see
     /// [`Region::choice`](super::region::Region::choice)).
     pub(super) choice: Vec<f64>,
     pub(super) row: Row,
@@ -39,8 +39,8 @@ pub(super) struct Trial {
     /// The first list contains the derivatives of the goal with respect to each coordinate. The next lists
     /// contain the derivatives of the distance from each limit.
     pub(super) slopes: Vec<Vec<f64>>,
-    /// True if some derivatives are unknown and set to zero. The cause is a row without a derivative, if no
-    /// neighbouring point has a periodic motion.
+    /// True if some derivatives are unknown and set to zero. A derivative is unknown if the row does not
+    /// contain it and no neighbouring point has a periodic motion.
     pub(super) lacks_slopes: bool,
 }
 
@@ -66,8 +66,9 @@ impl Trial {
         Trial { coordinates, choice, row, goal, sides, excess, slopes: Vec::new(), lacks_slopes: false }
     }
 
-    /// True if this point is better than `other`. Of two feasible points, the point with the better goal is
-    /// better. Otherwise the point with the smaller excess is better.
+    /// True if this point is better than `other`. If both points satisfy all limits, the point with the
+    /// better goal is better. If one or both points exceed a limit, the point with the smaller excess is
+    /// better.
     pub(super) fn is_better(&self, problem: &Problem, other: &Trial) -> bool {
         if self.excess > 0.0 || other.excess > 0.0 {
             return self.excess < other.excess;
@@ -75,8 +76,8 @@ impl Trial {
         problem.aim.sign() * self.goal < problem.aim.sign() * other.goal
     }
 
-    /// Compares two points for sorting: the point with the smaller excess comes first. If the excesses are
-    /// equal, the point with the better goal comes first.
+    /// Compares two points for sorting: the point with the smaller excess over the limits comes first. If the
+    /// excesses are equal, the point with the better goal comes first.
     pub(super) fn order(&self, problem: &Problem, other: &Trial) -> Ordering {
         let goal = |trial: &Trial| problem.aim.sign() * trial.goal;
         self.excess.total_cmp(&other.excess).then(goal(self).total_cmp(&goal(other)))
@@ -90,8 +91,8 @@ impl Trial {
     }
 }
 
-/// Computes and stores the rows of one refinement. All rows have the same values of the parameters in
-/// `choice`.
+/// Computes and stores the rows of one search for an optimum. All rows have the same values of the parameters
+/// in `choice`.
 pub(super) struct Evaluator<'p> {
     pub(super) problem: &'p Problem,
     options: &'p RunOptions,

@@ -39,7 +39,7 @@ pub struct FrontPoint {
 /// The reason why a Pareto front cannot be computed.
 #[derive(Debug, thiserror::Error)]
 pub enum FrontError {
-    /// A goal or a condition is invalid. The variant contains the index of the goal, 0 or 1, and the
+    /// A goal or a condition is invalid. The error contains the index of the goal, 0 or 1, and the
     /// description of the mistake.
     #[error("{1}")]
     Problem(usize, ProblemError),

@@ -52,7 +52,7 @@ pub struct ProblemError {
     pub help: Option<String>,
 }
 
-/// An optimisation problem without mistakes.
+/// An optimisation problem that has passed all checks.
 #[derive(Clone)]
 pub struct Problem {
     /// The user's plan.
@@ -92,8 +92,8 @@ impl Problem {
         if size == 0.0 { 1.0 } else { size }
     }
 
-    /// Returns the problem of finding the point within the axes of `plan` with the best value of the
-    /// expression `goal`. The point must satisfy the `conditions` and the conditions of the plan.
+    /// Returns the problem to find the best value of the expression `goal` within the axes of `plan`. The
+    /// optimum must satisfy the `conditions` and the conditions of the plan.
     ///
     /// # Errors
     /// [`ProblemError`] with the first mistake that is found.
@@ -195,7 +195,8 @@ fn without_bounds(parameter: &Parameter) -> ProblemError {
     }
 }
 
-/// Parses the expression `text`. The result must be a number or a condition, as `wanted` requires.
+/// Parses the expression `text`. The value `wanted` determines if the expression must be a number or a
+/// condition.
 fn parsed(plan: &Plan, text: &str, part: ProblemPart, wanted: Kind) -> Result<Expression, ProblemError> {
     let names = Names { plan };
     let refused = |message: String, help: Option<String>| ProblemError { part, message, help };

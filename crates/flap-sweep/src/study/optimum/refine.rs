@@ -19,10 +19,10 @@ const CLEARANCE: f64 = 1e-6;
 /// the limit's size. The numerical errors of rows are about as large as this fraction.
 const CLEARANCE_ERROR: f64 = 5e-7;
 
-/// A refinement ends when the relative change of the goal is smaller than this value.
+/// The search from one start ends when the relative change of the goal in a step is smaller than this value.
 const SMALL_CHANGE: f64 = 1e-6;
 
-/// A refinement ends when the change of every coordinate is smaller than this value.
+/// The search from one start ends when every coordinate changes by less than this value in a step.
 const SMALL_STEP: f64 = 1e-5;
 
 /// Largest number of points in one run of sequential quadratic programming.
@@ -50,10 +50,10 @@ struct Local {
     constraints: Vec<(f64, Vec<f64>)>,
 }
 
-/// The result of a refinement.
+/// The result of the search from one start.
 pub(super) struct Refined {
     pub(super) best: Rc<Trial>,
-    /// True if the refinement included a pattern search.
+    /// True if the search included a pattern search.
     pub(super) is_polished: bool,
 }
 
@@ -93,7 +93,8 @@ pub(super) fn refine(points: &Evaluator<'_>, start: &[f64]) -> Refined {
 }
 
 /// Returns the relative gain of the goal from the point `before` to the point `after`. If `before` exceeds a
-/// limit, the gain is infinite for a smaller excess of `after`, and otherwise zero.
+/// limit, the gain is infinite or zero. The gain is infinite if `after` exceeds the limits by less than
+/// `before`.
 fn change(problem: &Problem, before: &Trial, after: &Trial) -> f64 {
     if before.excess > 0.0 {
         return if after.excess < before.excess { f64::INFINITY } else { 0.0 };
@@ -246,8 +247,8 @@ fn pattern(points: &Evaluator<'_>, mut best: Rc<Trial>) -> Rc<Trial> {
     best
 }
 
-/// Returns the directions of all coordinates. The list also contains the projections of these directions onto
-/// the nearby limits.
+/// Returns the directions of the coordinate axes. The list also contains the projections of these directions
+/// onto the nearby limits.
 fn directions(problem: &Problem, at: &Trial) -> Vec<Vec<f64>> {
     let dimensions = at.coordinates.len();
     let axis = |number: usize| DVector::from_fn(dimensions, |row, _| if row == number { 1.0 } else { 0.0 });

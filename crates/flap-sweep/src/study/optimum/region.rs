@@ -56,8 +56,9 @@ impl Variable {
 #[derive(Clone, Debug, Default)]
 pub(super) struct Region {
     pub(super) variables: Vec<Variable>,
-    /// Indices of the parameters whose values are tried one by one. Single values are tried for choices,
-    /// whole numbers, parameters with one value, and parameters of an axis with several parameters.
+    /// Indices of the parameters that do not vary continuously: the optimisation tries each of their values.
+    /// These parameters are choices, whole numbers, parameters with one value, and parameters of an axis with
+    /// several parameters.
     pub(super) enumerated: Vec<usize>,
 }
 

@@ -15,11 +15,11 @@ use super::starts;
 use crate::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use crate::run::{Run, RunError, RunOptions};
 
-/// Tolerances with which two end points of searches count as one optimum. Each pair contains the largest
-/// relative difference of the goal and the largest difference of the coordinates.
+/// Tolerances with which two end points of searches count as one optimum. Each pair of tolerances contains
+/// the largest relative difference of the goal and the largest difference of the coordinates.
 ///
-/// Two end points count as one optimum if their differences are within the tolerances of one pair. If the
-/// difference of the goal is small, the coordinates may differ more.
+/// Two end points count as one optimum if their differences are within the tolerances of one pair. The pair
+/// with the smaller tolerance of the goal has the larger tolerance of the coordinates.
 const SAME_OPTIMUM: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
 
 /// Settings of an optimisation.

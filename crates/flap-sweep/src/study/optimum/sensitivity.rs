@@ -11,7 +11,8 @@ use super::problem::Problem;
 /// this value.
 const NEAR: f64 = 1e-4;
 
-/// If a pattern search found the optimum, this value replaces [`NEAR`], because the optimum is less accurate.
+/// If a pattern search found the optimum, this value replaces [`NEAR`], because a pattern search is less
+/// accurate than a search with derivatives.
 const NEAR_PATTERN: f64 = 5e-3;
 
 /// An end of an axis can restrict the optimum if the coordinate is closer to the end than this distance.

@@ -11,17 +11,18 @@ use crate::plan::{Admission, Along, Plan};
 const MOST_VALUES: f64 = 1e6;
 
 impl Along {
-    /// Returns the followed parameter with its values, and the plan without the axis of this parameter. The
-    /// values come from `steps`, which is `[from, to, step]`. If `steps` is `None`, the values come from the
-    /// axis of the parameter.
+    /// Returns the parameter of the response with its values, and the plan without the axis of this
+    /// parameter. The values come from `steps`, which is `[from, to, step]`. If `steps` is `None`, the values
+    /// come from the axis of the parameter.
     ///
-    /// If `tolerance` is `None`, the tolerance is a sixteenth of the shortest step between values.
+    /// `tolerance` is the accuracy with which the ends of bistable bands are found. If `tolerance` is `None`,
+    /// the accuracy is a sixteenth of the shortest step between values.
     ///
     /// # Errors
     /// [`UserError`] in one of the following cases:
     ///
     /// - The parameter is a choice, or a formula determines the parameter.
-    /// - The axis of the parameter also varies further parameters.
+    /// - The axis of the parameter varies several parameters together.
     /// - The parameter has no axis, and `steps` is `None`.
     /// - The axis or `steps` contains fewer than two values, or `steps` contains more than a million steps.
     pub fn new(
@@ -66,12 +67,13 @@ impl Along {
         }
     }
 
-    /// Returns the entry of the followed parameter in the plan's parameter table.
+    /// Returns the entry for the parameter of the response in the plan's parameter table.
     pub fn parameter<'p>(&self, plan: &'p Plan) -> &'p Parameter<'p> {
         &plan.parameters()[self.parameter]
     }
 
-    /// Returns the values of all parameters of a design after the followed parameter is set to `value`.
+    /// Returns the values of all parameters of a design after the parameter of the response is set to
+    /// `value`.
     pub(super) fn values_at(&self, plan: &Plan, design: &Point, value: f64) -> Vec<f64> {
         let mut values = design.values.clone();
         values[self.parameter] = value;
@@ -79,8 +81,8 @@ impl Along {
         values
     }
 
-    /// Decides if the response of a design is computed. At least one value of the followed parameter must
-    /// give a possible point that no condition excludes.
+    /// Decides if the response of a design is computed. For at least one value of the response's parameter,
+    /// the point must be possible and satisfy all conditions.
     pub(super) fn judge(&self, plan: &Plan, design: &Point) -> Admission {
         let mut verdicts = self.values.iter().map(|&value| plan.judge(&self.values_at(plan, design, value)));
         let first = verdicts.next().unwrap_or(Admission::Runs);

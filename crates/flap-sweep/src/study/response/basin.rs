@@ -17,16 +17,16 @@ const SAMPLES: u32 = 64;
 /// Number and seed of the random initial states with which basins of attraction are computed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Starts {
-    /// Number of initial states at each value of the followed parameter.
+    /// Number of initial states at each value of the parameter of the response.
     pub count: u32,
     /// Seed of the random initial states.
     pub seed: u64,
 }
 
-/// Basins of attraction of the two stable orbits at one value of the followed parameter.
+/// Basins of attraction of the two stable orbits at one value of the parameter of the response.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Basin {
-    /// Value of the followed parameter, in SI units.
+    /// Value of the parameter of the response, in SI units.
     pub value: f64,
     /// Number of initial states from which motions are computed.
     pub count: u32,
@@ -51,9 +51,10 @@ impl Responses<'_> {
     /// Computes the basins of attraction at each value of `curve` at which the two branches have different
     /// stable orbits. The values are in ascending order.
     ///
-    /// The initial states are uniformly distributed. For each state component, the range is from the smallest
-    /// to the largest value on both orbits. Each motion is integrated period by period until it settles.
-    /// Newton shooting is not used, because it may jump from one basin to the other basin.
+    /// The initial states are uniformly distributed. Each initial state component lies between the smallest
+    /// and the largest value of this component on both orbits. Each motion is integrated period by period
+    /// until the motion settles. Newton shooting is not used, because it may jump from one basin to the other
+    /// basin.
     ///
     /// # Errors
     /// [`Unfinished`] if the model cannot compute motions over time, if the states of an orbit cannot be
@@ -114,7 +115,7 @@ fn ranges(plan: &Plan, run: &PointRun<'_>, orbits: [&Step; 2]) -> Result<Vec<[f6
     Ok(ranges)
 }
 
-/// The motions from random initial states at one value of the followed parameter.
+/// The motions from random initial states at one value of the parameter of the response.
 struct Motions<'a> {
     ranges: Vec<[f64; 2]>,
     values: &'a [f64],

@@ -4,8 +4,8 @@
 //! opposite end of the band, the unstable branch turns again and continues as the downward branch.
 //!
 //! The unstable orbits are computed by pseudo-arclength continuation (Keller, 1977). The unknowns are the
-//! state at the beginning of the period, and the followed parameter. Each orbit is sought on a plane that is
-//! perpendicular to the line through the last two orbits.
+//! state at the beginning of the period, and the parameter of the response. Each orbit is sought on a plane
+//! that is perpendicular to the line through the last two orbits.
 
 use flap_core::num::Backend;
 use flap_core::simulate::{Interrupt, Period, Row, Status};
@@ -35,7 +35,7 @@ const CHANGE: f64 = 1e-3;
 /// The tolerances of the integration are the tolerances of the plan times this factor.
 ///
 /// The errors of the integrated states must be far below `settle_tol`. With larger errors, Newton's iteration
-/// may find no orbit on a plane.
+/// may not find the next orbit.
 const FINER: f64 = 1e-2;
 
 /// Returns the unstable orbits in all bistable bands of a curve. If the computation is interrupted, the list

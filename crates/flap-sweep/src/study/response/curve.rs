@@ -6,10 +6,10 @@ use flap_core::simulate::{Point, Row, Status};
 use crate::plan::{Along, Plan};
 use crate::table::layout::{Cell, Layout, Place};
 
-/// One motion of a response, at one value of the followed parameter.
+/// One motion of a response, at one value of the parameter of the response.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Step {
-    /// Value of the followed parameter.
+    /// Value of the parameter of the response.
     pub value: f64,
     /// Row with the status and the measures of the motion.
     pub row: Row,
@@ -20,7 +20,7 @@ pub struct Step {
 pub struct Curve {
     /// Parameter values of the design.
     pub design: Point,
-    /// Motions on the upward branch, in ascending order of the followed parameter.
+    /// Motions on the upward branch, in ascending order of the parameter of the response.
     pub up: Vec<Step>,
     /// Motions on the downward branch at the same parameter values as `up`, also in ascending order.
     pub down: Vec<Step>,
@@ -66,8 +66,8 @@ impl Curve {
         Curve::new(design, up.clone(), up)
     }
 
-    /// If the parameter values of the design are impossible at every value of the followed parameter, returns
-    /// the reason.
+    /// If the parameter values of the design are impossible at every value of the parameter of the response,
+    /// returns the reason.
     pub fn invalid(&self) -> Option<&str> {
         let all = self.up.iter().all(|step| step.row.status == Status::Invalid);
         self.up.first().filter(|_| all)?.row.reason.as_deref()
@@ -109,12 +109,13 @@ impl Curve {
 /// Two periodic motions count as the same motion if no state component differs by more than this fraction of
 /// its size. The states are compared at the beginning of a drive period.
 ///
-/// flap defines bistability only by this comparison. The column `bistable`, the pictures and the live page
-/// show the result of this comparison. The comparison uses states and not measures, because two different
-/// motions may have equal values of a measure.
+/// flap reports bistability only if the states of the two motions differ. The column `bistable`, the pictures
+/// and the live page show the result of comparing the states. The comparison uses states and not measures,
+/// because two different motions may have equal values of a measure.
 const DIFFERENT: f64 = 1e-2;
 
-/// A step of the response is steep if a state component changes by more than this fraction of its size.
+/// The step between two parameter values is steep if a state component changes by more than this fraction of
+/// its largest magnitude.
 const STEEP: f64 = 0.1;
 
 /// Result of the comparison of two motions at the same drive.

@@ -24,7 +24,7 @@ const MOST_STEPS: f64 = 1e4;
 /// The second parameter of the plane in which edges are computed, with the range of this parameter.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EdgeRange {
-    /// Index in the model's parameter table.
+    /// Index of the second parameter in the model's parameter table.
     pub parameter: usize,
     /// Smallest and largest value of the second parameter, in SI units.
     pub range: [f64; 2],
@@ -34,14 +34,14 @@ pub struct EdgeRange {
 }
 
 impl EdgeRange {
-    /// Checks the second parameter and its range, for a plan that follows the parameter of `along`.
+    /// Checks the second parameter and its range. `along` describes the parameter of the response.
     ///
     /// # Errors
     /// [`UserError`] in one of the following cases:
     ///
-    /// - The second parameter is a choice, or the same parameter as the followed parameter.
-    /// - The value of the second parameter comes from an axis or a formula, or follows from different
-    ///   parameters.
+    /// - The second parameter is a choice, or is the parameter of the response.
+    /// - The value of the second parameter comes from an axis or a formula, or the model computes the value
+    ///   from other parameters.
     /// - The range is empty or descending, or does not contain the design's value of the second parameter.
     /// - The step is zero or negative, or the range contains more than 10,000 steps.
     pub fn new(
@@ -83,16 +83,16 @@ impl EdgeRange {
 /// The edges of hysteresis of one design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edges {
-    /// The edges, in ascending order of the followed parameter at which each edge was found.
+    /// The edges, sorted by the value of the response's parameter at which each edge was found.
     pub edges: Vec<Edge>,
-    /// Values of the followed parameter at which a band ends but no edge could be computed.
+    /// Values of the parameter of the response at which a band ends but no edge could be computed.
     pub missed: Vec<f64>,
 }
 
 /// A curve in the plane of two parameters on which an orbit loses its stability.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Edge {
-    /// Kind of the edge, which depends on the critical Floquet multiplier.
+    /// Kind of the edge, which depends on the Floquet multiplier that reaches the magnitude 1.
     pub kind: EdgeKind,
     /// Points in their order along the edge.
     pub points: Vec<EdgePoint>,
@@ -115,16 +115,16 @@ pub enum EdgeKind {
 /// An orbit on an edge.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EdgePoint {
-    /// Value of the followed parameter, then value of the second parameter.
+    /// Value of the parameter of the response, then value of the second parameter.
     pub values: [f64; 2],
-    /// The kind of special point, if the point is a cusp or a turn.
+    /// Marks the point if it is a cusp, or a local minimum or maximum of the second parameter.
     pub mark: Option<EdgeMark>,
     /// State of the orbit at the beginning of the drive period.
     pub state: Vec<f64>,
     /// Measures of the orbit.
     pub measures: Vec<f64>,
-    /// Largest magnitude of the orbit's Floquet multipliers. The magnitude of a Floquet multiplier exceeds 1
-    /// if the orbit is unstable on both sides of the edge.
+    /// Largest magnitude of the orbit's Floquet multipliers. If this magnitude is above 1, the orbit is
+    /// unstable on both sides of the edge.
     pub floquet_max: f64,
 }
 
@@ -151,7 +151,7 @@ pub enum EdgeEnd {
     Unconverged,
     /// The motion over a drive period cannot be integrated.
     Unfinished(Unfinished),
-    /// The edge reaches the largest number of points.
+    /// The edge has the largest allowed number of points.
     Long,
 }
 

@@ -1,17 +1,17 @@
 //! Computes the edges of hysteresis by continuation. Edges are curves in the plane of two parameters, on
 //! which an orbit loses its stability.
 //!
-//! A bistable band of the followed parameter p ends where a Floquet multiplier is critical, for example +1 at
-//! a fold. If a second parameter q changes, the ends of the band move along curves in the plane of p and q,
-//! the edges. Each point of an edge solves these equations:
+//! Let p be the parameter of the response. A bistable band of p ends where a Floquet multiplier is critical,
+//! for example +1 at a fold. If a second parameter q changes, the ends of the band move along curves in the
+//! plane of p and q, the edges. Each point of an edge solves these equations:
 //!
 //! ```text
 //! P(x; p, q) − x = 0    P: map of a drive period, x: state at its beginning
 //! test(M) = 0           M = ∂P/∂x: monodromy matrix
 //! ```
 //!
-//! The function test(M) is zero if a Floquet multiplier is critical (Kuznetsov, Elements of Applied
-//! Bifurcation Theory, section 10.2):
+//! The function test of the monodromy matrix M is zero if a Floquet multiplier is critical (Kuznetsov,
+//! Elements of Applied Bifurcation Theory, section 10.2):
 //!
 //! | kind | multipliers | test(M) |
 //! |---|---|---|
@@ -70,14 +70,14 @@ const FINER: f64 = 1e-4;
 /// the plan.
 const CONVERGED: f64 = 0.1;
 
-/// A point is on an edge if its distance from the line between two successive points is at most this fraction
-/// of the line's length.
+/// A point lies on an edge if its distance from the chord between two successive points is at most this
+/// fraction of the chord's length.
 const ON_CHORD: f64 = 0.2;
 
 impl Responses<'_> {
     /// Returns the edges on which the bistable bands of `curve` end. Each edge is a curve in the plane of two
-    /// parameters: the followed parameter, and the parameter of `second`. `curve` must be a response of the
-    /// same plan.
+    /// parameters: the parameter of the response, and the parameter of `second`. `curve` must be a response
+    /// of the same plan.
     ///
     /// If the computation is interrupted, edges are missing or incomplete.
     pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {
@@ -159,16 +159,16 @@ struct Solution {
 }
 
 impl Plane<'_> {
-    /// Returns the unit vector along the parameter with the number `k`: 0 for the followed parameter, 1 for
-    /// the second parameter.
+    /// Returns the unit vector along the parameter with the number `k`: 0 for the parameter of the response,
+    /// 1 for the second parameter.
     fn axis(&self, k: usize) -> DVector<f64> {
         let mut axis = DVector::zeros(self.space.states() + 2);
         axis[self.space.states() + k] = 1.0;
         axis
     }
 
-    /// Returns the residuals of the equations at `place`, and the motion over the drive period that begins
-    /// there.
+    /// Returns the residuals of the equations at `place`, and the motion over the drive period that begins at
+    /// `place`.
     fn residual(&self, place: &DVector<f64>) -> Result<(DVector<f64>, Period), EdgeEnd> {
         let period = self.space.period(place).map_err(EdgeEnd::Unfinished)?;
         let n = self.space.states();
@@ -334,8 +334,8 @@ impl Plane<'_> {
         (found, EdgeEnd::Long)
     }
 
-    /// If a parameter is outside of its range, returns its number and the end of the range that the parameter
-    /// exceeds.
+    /// If a parameter is outside of its range, returns the number of the parameter and the end of the range
+    /// that the parameter exceeds.
     fn outside(&self, place: &DVector<f64>) -> Option<(usize, f64)> {
         self.space.values(place).into_iter().zip(self.ranges).enumerate().find_map(
             |(k, (value, [from, to]))| {
@@ -358,10 +358,11 @@ impl Plane<'_> {
         Some(found)
     }
 
-    /// Returns the cusp or turn between two successive points of the edge, if there is one. The position of
-    /// this point is computed by the Illinois variant of regula falsi.
+    /// Returns the cusp or turn of an edge between two successive points, if there is one. A turn is a local
+    /// minimum or maximum of the second parameter. The position of the cusp or turn is computed by the
+    /// Illinois variant of regula falsi.
     ///
-    /// At a turn, the tangent's component along the second parameter is zero. At a cusp of a fold, the
+    /// At a turn, the tangent's component along the second parameter is zero. At a cusp, the tangent's
     /// components along both parameters are zero and change their sign.
     fn marked(&self, last: &Solution, next: &Solution) -> Option<(Solution, EdgeMark)> {
         let n = self.space.states();

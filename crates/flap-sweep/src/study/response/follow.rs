@@ -1,9 +1,9 @@
 //! Computes the upward and the downward branch of a response.
 //!
 //! First, both branches are computed at the given values of the parameter, one value after the other. Then
-//! two kinds of steps between values are halved until the steps are as short as the tolerance. In the middle
-//! of a step, the motion of each branch starts from the neighbouring motion on the same branch. The following
-//! kinds of steps are halved:
+//! two kinds of steps between values are halved until each step is at most as long as the tolerance. At the
+//! value in the middle of a step, the motion of each branch starts from the neighbouring motion on this
+//! branch. The following kinds of steps are halved:
 //!
 //! - Steps that contain an end of a bistable band, because both branches have the same motion at only one end
 //!   of the step.
@@ -27,14 +27,15 @@ pub(super) struct Follow<'a> {
     down: Vec<Step>,
 }
 
-/// A step between two neighbouring values of the followed parameter.
+/// A step between two neighbouring values of the parameter of the response.
 #[derive(Clone, Debug)]
 struct Interval {
-    /// The motion of the upward branch at the smaller value of the parameter.
+    /// The motion of the upward branch at the smaller of the two parameter values.
     low: Step,
-    /// The motion of the downward branch at the larger value of the parameter.
+    /// The motion of the downward branch at the larger of the two parameter values.
     high: Step,
-    /// Two flags, for the smaller and for the larger value: true if both branches have the same motion.
+    /// One flag for the smaller value and one for the larger value: true if both branches have the same
+    /// motion at this value.
     same: [bool; 2],
 }
 
@@ -43,7 +44,7 @@ impl<'a> Follow<'a> {
         Follow { plan, along, design, up: Vec::new(), down: Vec::new() }
     }
 
-    /// Returns the computation of the response, which pauses while its points are computed in lanes.
+    /// Returns the computation of the response. The computation pauses while the lanes compute its points.
     pub(super) fn sequence(self) -> Sequence<'a, Curve> {
         Sequence::new(|exchange| async move { self.run(&exchange).await })
     }
@@ -96,8 +97,8 @@ impl<'a> Follow<'a> {
         invalid.into_iter().filter_map(row).collect()
     }
 
-    /// Returns the point at which the followed parameter has the given value. The motion of the point starts
-    /// from the settled state of the motion `from`.
+    /// Returns the point at which the parameter of the response has the given value. The motion of the point
+    /// starts from the settled state of the motion `from`.
     fn point_at(&self, value: f64, from: Option<&Step>) -> Point {
         let values = self.along.values_at(self.plan, &self.design, value);
         let begin = from.and_then(|step| match step.row.status {

@@ -5,9 +5,10 @@
 //! the downward branch differ, the design has two motions at the same drive.
 //!
 //! - `along` determines the values of the parameter that rises and falls.
-//! - `curve` contains the response of one design and its rows, and compares the motions of both branches at
-//!   the same drive.
-//! - `follow` computes both branches of a response, and finds the ends of bistable bands.
+//! - `curve` contains the response of one design and its rows, and compares the motions of the upward and the
+//!   downward branch at the same drive.
+//! - `follow` computes the upward and the downward branch of a response, and finds the ends of bistable
+//!   bands.
 //! - `space` defines the space of states and parameters in which curves of orbits are computed.
 //! - `continuation` computes the unstable orbits in bistable bands.
 //! - `basin` computes the fraction of initial states from which the motion settles on each branch.

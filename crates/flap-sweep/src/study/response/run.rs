@@ -12,15 +12,15 @@ use crate::plan::{Admission, Along, Plan};
 use crate::resonance::sequence::{self, Sequence, SequenceSource};
 use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
-/// Smallest and largest window per thread. The window is the largest number of responses that may be
-/// computed beyond the last returned response.
+/// Limits of the window per thread: the largest number of responses that may be computed beyond the last
+/// returned response.
 ///
-/// With a window below the smallest value, some lanes would be empty. With a window above the largest value,
-/// the memory could be too small.
+/// With a window below the lower limit, some lanes would be empty. With a window above the upper limit, the
+/// memory could be too small.
 const AHEAD: [usize; 2] = [16, 128];
 
 /// The responses of the designs of a plan. The designs are the selected points of the plan. Designs that
-/// conditions exclude at all values of the followed parameter have no response.
+/// conditions exclude at all values of the parameter of the response have no response.
 #[derive(Clone, Copy)]
 pub struct Responses<'a> {
     pub(super) plan: &'a Plan,
@@ -28,7 +28,7 @@ pub struct Responses<'a> {
 }
 
 impl<'a> Responses<'a> {
-    /// Returns the responses of a plan, or `None` if the plan does not follow a parameter.
+    /// Returns the responses of a plan, or `None` if the plan requests no responses.
     pub fn of(plan: &'a Plan) -> Option<Responses<'a>> {
         plan.followed().map(|along| Responses { plan, along })
     }
@@ -60,8 +60,8 @@ impl<'a> Responses<'a> {
         self.complete(curve, backend, &never)
     }
 
-    /// Adds the unstable orbits to a response, if the plan requests unstable orbits. Adds the measures that
-    /// the grid file defines to all rows of the response.
+    /// Adds the unstable orbits to a response, if the plan requests unstable orbits. The function also adds
+    /// to all rows the measures that the grid file defines.
     ///
     /// If the computation is interrupted, some unstable orbits are missing.
     fn complete(self, mut curve: Curve, backend: Backend, interrupted: Interrupt<'_>) -> Curve {
@@ -144,7 +144,7 @@ impl<'a> SequenceSource<'a> for Designs<'a, '_, '_> {
 }
 
 /// Returns the number of measures that a row must have. Rows with a periodic motion have `measures` measures,
-/// and all remaining rows have none.
+/// and rows without a periodic motion have no measures.
 fn expected(row: &Row, measures: usize) -> usize {
     if row.status == Status::Periodic { measures } else { 0 }
 }

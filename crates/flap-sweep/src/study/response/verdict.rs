@@ -13,15 +13,15 @@ use crate::table::labels::{self, Scale};
 /// Summary of a response, which can be printed as one line.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict {
-    /// Smallest and largest value of the followed parameter.
+    /// Smallest and largest value of the parameter of the response.
     pub range: [f64; 2],
-    /// Unit of the followed parameter.
+    /// Unit of the parameter of the response.
     pub unit: &'static str,
     /// Longest step between neighbouring values of the parameter. A band of hysteresis that is narrower than
     /// this step may not be found.
     pub step: f64,
-    /// Upper limit of the steps in which a state component changes by more than a tenth of its size. flap
-    /// divides longer steps of this kind.
+    /// Upper limit of the length of steps in which a state component changes by more than a tenth of its
+    /// size. flap halves such a step if the step is longer than this limit.
     pub steep_step: f64,
     /// Largest difference of the peak-to-peak stroke between the branches (deg), among the values at which
     /// both branches have the same motion.
@@ -115,7 +115,7 @@ impl BandKind {
         kind
     }
 
-    /// Extends a band by the kind of motion at the next parameter value.
+    /// Adds the kind of motion at the next parameter value to the description of the band.
     fn add(&mut self, next: BandKind) {
         match (self, next) {
             (BandKind::Bistable { jump }, BandKind::Bistable { jump: next }) => {
