@@ -62,7 +62,7 @@ def uncertain_parameters(preset: str, spread: float) -> dict[str, Any]:
 
 
 def rows_of_whole_blocks(periodic: np.ndarray, parameters: int) -> np.ndarray:
-    """Return an array that is True for each row of a block in which all rows are periodic.
+    """Return an array that is True for each row whose block contains only periodic rows.
 
     Saltelli's sample consists of blocks of rows. A block contains two points, and copies of the first point in which
     one parameter is taken from the second point. The formulas for the Sobol' indices compare the rows of a block with

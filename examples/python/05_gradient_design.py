@@ -80,7 +80,7 @@ def excesses(table: Any) -> Any:
 
 
 class NoDerivative(Exception):
-    """Exception for a design without a settled motion or without derivatives, which ends a search."""
+    """Exception that ends a search at a design without a settled motion or without derivatives."""
 
 
 class Search:

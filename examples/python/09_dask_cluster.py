@@ -7,7 +7,7 @@ run the points of the lost worker again. To continue an interrupted sweep, repea
     python 09_dask_cluster.py
     python 09_dask_cluster.py --size full --workers 8 --out sweep.csv
 
-For a real cluster, replace the line with `LocalCluster(...)`. For SLURM (pip install dask-jobqueue), write:
+For a real cluster, replace the line that contains `LocalCluster(...)`. For SLURM (pip install dask-jobqueue), write:
 
     from dask_jobqueue import SLURMCluster
     cluster = SLURMCluster(cores=1, memory="2GB", walltime="01:00:00")
@@ -19,8 +19,8 @@ For Kubernetes (pip install dask-kubernetes), use an image that contains flapwin
     cluster = KubeCluster(image="registry.example/flapwing")
     cluster.scale(64)
 
-All workers must have the same build of flapwing, and processors with the same rounding. If a worker differs, the sweep
-ends with an error. The workers do not write the result file, because the process of the script writes the file.
+All workers must have the same build of flapwing, and processors with the same rounding. Otherwise the
+sweep ends with an error. The workers do not write the result file, because the process of the script writes the file.
 
 The script requires Dask: pip install distributed
 

@@ -86,7 +86,7 @@ impl System {
         })
     }
 
-    /// Returns the same robot with a different drive voltage.
+    /// Returns a copy of this robot with a different drive voltage.
     fn at(self, drive_voltage_pp: f64) -> System {
         System { params: Params { drive_voltage_pp, ..self.params }, ..self }
     }

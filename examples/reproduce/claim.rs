@@ -22,12 +22,12 @@ pub(crate) enum Verdict {
     /// The computed number equals the rounded published number, or the computed motions fulfil the statement.
     Met,
     /// The difference between the computed and the published number is within the limit of the claim. The
-    /// contained number is the relative difference.
+    /// number in this verdict is the relative difference.
     MetWithin(f64),
     /// The difference between the two numbers exceeds the limit of the claim, or the computed motions do not
     /// fulfil the statement.
     NotReproduced,
-    /// The paper lacks the numbers for a comparison. The contained text is the reason.
+    /// The paper lacks the numbers for a comparison. The text in this verdict is the reason.
     CannotBeChecked(&'static str),
 }
 

@@ -10,9 +10,9 @@ use crate::grid::Grid;
 use crate::watch::Watch;
 use crate::{error, sweep};
 
-/// Run the points from `begin` up to, but not including, `end`. Return the rows as bytes. The function
-/// `chunks`, which is an argument of `sweep`, returns rows as the same kind of bytes. If `first` is given,
-/// the points are a part of a larger grid, and `first` is the index of the first point in the larger grid.
+/// Run the points from `begin` up to, but not including, `end`. Return the rows as bytes. The argument
+/// `chunks` of `sweep` is a function that must return such bytes for the next rows. If `first` is given, the
+/// points are a part of a larger grid, and `first` is the index of the first point in the larger grid.
 #[pyfunction]
 #[pyo3(signature = (grid, begin, end, /, *, first=None, threads=None))]
 pub(crate) fn part<'py>(
@@ -38,8 +38,8 @@ pub(crate) fn part<'py>(
     Ok(PyBytes::new(py, &ran.map_err(|error| error::run(&error))?))
 }
 
-/// Return the identity of this process: `build` (a hash of the sources) and `arithmetic`. Processes with the
-/// same identity compute rows that are equal to the last bit.
+/// Return the identity of this process, a dictionary with `build` (a hash of the sources) and `arithmetic`.
+/// Processes with the same identity compute rows that are equal to the last bit.
 #[pyfunction]
 pub(crate) fn identity(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let dict = PyDict::new(py);

@@ -20,7 +20,7 @@ enum Data {
     Number(Vec<f64>),
     /// Flags: 1 for true, 0 for false, -1 for unknown.
     Flag(Vec<i8>),
-    /// Text: for each row, the index of a word in the list of words, and the list of words.
+    /// Text: for each row the index of its word, and then the list of words.
     Text(Vec<u32>, Vec<String>),
 }
 

@@ -11,9 +11,9 @@ use crate::error;
 
 /// Returns a finite number from any type that Python's `float` accepts, except text and `bool`.
 ///
-/// Returns a `TypeError` if `value` has another type, or if reading `value` raises an exception. The message
-/// contains the name `name` and the required type `wanted`. Returns a `ValueError` if the number is infinite,
-/// not a number, or too large.
+/// Returns a `TypeError` if the type of `value` does not allow the conversion, or if reading `value` raises
+/// an exception. The message contains the name `name` and the required type `wanted`. Returns a `ValueError`
+/// if the number is infinite, not a number, or too large.
 pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     if value.is_instance_of::<PyBool>() {
         return Err(wrong_type(name, wanted, value));
@@ -47,8 +47,7 @@ pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// Converts a number, or text with a unit, to a number in `unit`. If `takes_text` is false, text is an error,
 /// because the unit is already a part of `name`.
 ///
-/// Returns the same errors as [`number`], and a `ValueError` for text that is not a quantity with the kind of
-/// unit in `unit`.
+/// Returns the same errors as [`number`], and a `ValueError` for text that cannot be converted to `unit`.
 pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     match value.cast::<PyString>() {
         Ok(text) if takes_text => {

@@ -18,8 +18,8 @@ pub(crate) fn plan(design: &Bound<'_, PyAny>, keywords: Option<&Bound<'_, PyDict
     Ok(set(with_solver(grid::plan(design)?, &solver)?, &keywords)?.0)
 }
 
-/// Returns the same plan as [`plan`]. The design can also be the name of a model if the keyword arguments
-/// give all parameters of the model.
+/// Returns the plan of a design, like [`plan`]. The design can also be the name of a model if the keyword
+/// arguments give all parameters of the model.
 pub(crate) fn whole(design: &Bound<'_, PyAny>, keywords: &Bound<'_, PyDict>) -> PyResult<Plan> {
     match plan_of_model(design, Some(keywords))? {
         Some((plan, set)) => alone(plan, &set),

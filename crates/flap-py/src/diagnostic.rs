@@ -15,7 +15,7 @@ use pyo3::prelude::*;
 ///     The place of the mistake: line and column, counted from 1. Columns are in characters.
 /// start, end : int
 ///     The place of the mistake as byte offsets in the UTF-8 text. `start` is the first byte of the mistake, and `end`
-///     is the byte after the last byte.
+///     is the first byte after the mistake.
 /// message : str
 ///     The message about the mistake.
 /// notes, help : list of str

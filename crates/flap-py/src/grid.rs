@@ -128,7 +128,8 @@ impl Grid {
     }
 
     /// The axes of the grid. The last axis varies fastest. Each dictionary has the parameters that vary together along
-    /// an axis, with values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
+    /// an axis, with values in SI units. If the axis is a sample, the first entry
+    /// is `sample`, an array with the numbers of the sampled points, which begin at 0.
     #[getter]
     pub(crate) fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         axes(py, &self.plan)
@@ -250,7 +251,7 @@ pub(crate) fn name(design: &Bound<'_, PyAny>) -> PyResult<Option<String>> {
     Ok((!is_grid).then(|| text.into_owned()))
 }
 
-/// Returns the plan of the text of a grid, which was read from the file `name`.
+/// Returns the plan for a grid text that was read from the file `name`.
 pub(crate) fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {
     let plan =
         grid::parse(name, text, simulate::all()).map_err(|diagnostics| error::grid(py, &diagnostics))?;

@@ -44,8 +44,8 @@ pub(crate) fn text_of(entries: &Bound<'_, PyDict>) -> PyResult<String> {
     Ok(head.concat())
 }
 
-/// Dictionaries from the lists of a table, such as the wings of a vehicle. Each dictionary is paired with the
-/// key of its list.
+/// The dictionaries in the lists of a table, for example one dictionary for each wing of a vehicle. Each
+/// dictionary is paired with the key of its list.
 type Blocks<'py> = Vec<(String, Bound<'py, PyDict>)>;
 
 /// Separates the entries of a table that are lists of dictionaries, such as the wings of a vehicle, from all
@@ -72,7 +72,7 @@ fn dictionaries<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Vec<Bound<'py
 }
 
 /// Converts a mapping, or a table with columns (a DataFrame, an Arrow table, a `Table`), to a dictionary.
-/// Returns `None` for other objects.
+/// Returns `None` if the object is neither a mapping nor a table.
 pub(crate) fn dictionary<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
     if let Ok(dict) = value.cast::<PyDict>() {
         return Ok(Some(dict.clone()));
@@ -90,8 +90,8 @@ pub(crate) fn dictionary<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Boun
     columns(value).map_err(failed)
 }
 
-/// Returns a dictionary of the entries of a mapping or the columns of a table. Returns `None` for other
-/// objects.
+/// Returns a dictionary of the entries of a mapping or the columns of a table. Returns `None` if the object
+/// is neither a mapping nor a table.
 fn columns<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>>> {
     let dict = PyDict::new(value.py());
     if let Ok(mapping) = value.cast::<PyMapping>() {
@@ -110,7 +110,8 @@ fn columns<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyDict>
     Ok(None)
 }
 
-/// Converts a range, an array, a Series or an Arrow column to a list. Returns `None` for other objects.
+/// Converts a range, an array, a Series or an Arrow column to a list. Returns `None` for all
+/// other types of objects.
 fn listed<'py>(value: &Bound<'py, PyAny>) -> PyResult<Option<Bound<'py, PyAny>>> {
     if value.is_instance_of::<PyRange>() {
         return Ok(Some(

@@ -51,10 +51,10 @@ pub(crate) fn is_log(values: PyReadonlyArray1<'_, f64>) -> PyResult<bool> {
     Ok(scale::is_log(values.as_slice()?))
 }
 
-/// Return the default measure of a role: a name in `columns` that is not in `taken`. Return None if `columns`
-/// contains no default measure.
+/// Return the default measure for a purpose in pictures: a name in `columns` that is not in `taken`. Return
+/// None if `columns` contains no default measure.
 ///
-/// `role` is "response", "benefit", "cost" or "motion".
+/// `role` is the purpose: "response", "benefit", "cost" or "motion".
 #[pyfunction]
 #[pyo3(signature = (role, columns, taken, /))]
 #[expect(clippy::needless_pass_by_value, reason = "a list of Python's becomes a vector")]

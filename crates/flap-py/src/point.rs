@@ -21,7 +21,7 @@ pub(crate) struct Chosen {
     pub(crate) values: Vec<f64>,
     /// The model whose drive or stroke is replaced by samples, if the call gives a waveform or a stroke.
     sampled: Option<Box<dyn Simulator>>,
-    /// The reason why the point cannot be run.
+    /// The reason why the point cannot be simulated.
     pub(crate) invalid: Option<String>,
 }
 

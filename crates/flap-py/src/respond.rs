@@ -1,4 +1,4 @@
-//! Follows responses while a parameter rises and falls.
+//! Computes responses: the motions of designs while a parameter rises and falls.
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_sweep::notation::UserError;
@@ -17,7 +17,7 @@ use crate::{design, error, parameters, sweep};
 /// The column of the stroke amplitude.
 const STROKE: &str = "stroke_amplitude_deg";
 
-/// The verdict on a curve, as a dictionary.
+/// The verdict on the response of one design, as a dictionary.
 #[derive(IntoPyObject)]
 struct Judged {
     curve: u64,
@@ -27,7 +27,7 @@ struct Judged {
 
 /// A bistable band: the ends of the band in SI units, and the stroke difference. The stroke difference is the
 /// largest difference between the peak-to-peak strokes of the rising and the falling branch (deg). The stroke
-/// difference is NaN if no point of the band has periodic motions on the two branches.
+/// difference is NaN if the two branches are never both periodic at one value in the band.
 #[derive(IntoPyObject)]
 struct Band {
     start: f64,
@@ -49,9 +49,10 @@ impl Judged {
     }
 }
 
-/// Follow responses; see `flapwing.respond`.
+/// Compute responses; see `flapwing.respond`.
 ///
-/// `curves` has the numbers of the designs to follow, in rising order. In the result, `designs` is the number of all designs.
+/// `curves` has the numbers of the designs whose responses are computed, in rising order. In the result,
+/// `designs` is the number of all designs.
 #[pyfunction]
 #[pyo3(signature = (design, parameter, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, return_states=false, threads=None, progress=None, keywords=None, curves=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]
@@ -154,8 +155,8 @@ fn followed<'py>(
     Along::new(plan, index, steps, tolerance, unstable).map_err(|error| impossible(&error))
 }
 
-/// Converts `value` to a number in SI units. Returns `None` for a choice, because a response cannot follow a
-/// choice.
+/// Converts `value` to a number in SI units. Returns `None` for a choice, because the parameter of a response
+/// must be a number.
 fn number(parameter: &Parameter<'_>, value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<f64>> {
     match parameter.kind {
         Kind::Choice(_) => Ok(None),
@@ -169,7 +170,8 @@ fn impossible(error: &UserError) -> PyErr {
     PyValueError::new_err(error.line())
 }
 
-/// Follow the edges of hysteresis; see `flapwing.edges`. Each range is a first value, a last value and a step.
+/// Compute the edges of hysteresis; see `flapwing.edges`. Each range is a first value, a last value and a
+/// step.
 #[pyfunction]
 #[pyo3(signature = (design, first, second, /, *, first_range, second_range, tolerance=None, threads=None, keywords=None))]
 #[expect(clippy::too_many_arguments, reason = "one per keyword")]

@@ -65,8 +65,8 @@ impl<'py> Keywords<'py> {
 /// A keyword that is not a solver setting.
 pub(crate) type Keyword<'py> = (String, Bound<'py, PyAny>);
 
-/// Converts `value` to a number that is more than zero and less than `limit`. Any other number is a
-/// `ValueError`, and a value of another type is a `TypeError`.
+/// Converts `value` to a number that is more than zero and less than `limit`. A number outside of this range
+/// is a `ValueError`, and an object that is not a number is a `TypeError`.
 fn tolerance(name: &str, limit: f64, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let number = convert::number(name, "a number", value)?;
     if number > 0.0 && number < limit {

@@ -22,8 +22,8 @@ pub(super) fn claims() -> Vec<Claim> {
 /// The responses of the transmissions T₁, T₂ and T₃, each at 160, 180, 200 and 240 V.
 type Families = [[Response; 4]; 3];
 
-/// Index of the response at 160 V in the four responses of one transmission. The index for 200 V is in the
-/// next constant.
+/// Index of the response at 160 V in the four responses of one transmission. The next constant contains the
+/// index for 200 V.
 const V_160: usize = 0;
 const V_200: usize = 2;
 

@@ -117,8 +117,8 @@ fn with_less(points: &[Settled], difference: f64) -> String {
     )
 }
 
-/// Returns the phase (degrees, in steps of 15) at which a second harmonic produces the largest yaw torque,
-/// and the three torques at this phase.
+/// Returns the phase (degrees, in steps of 15) at which a second harmonic produces the largest yaw torque.
+/// Also returns the roll, pitch and yaw torque at this phase.
 fn split_cycle() -> (f64, [f64; 3]) {
     let pair = Flier::pair().choose("drive_shape", Shape::Harmonics as usize);
     let phases: Vec<f64> = (0..24).map(|i| 15.0 * f64::from(i)).collect();

@@ -16,8 +16,8 @@ pub(super) struct Flier {
 }
 
 impl Flier {
-    /// Returns a vehicle with wings of the preset `name`. Each entry of `wings` is the name of a wing, and
-    /// true if the wing is mirrored.
+    /// Returns a vehicle with wings of the preset `name`. Each entry of `wings` contains the name of a wing,
+    /// and a flag that is true if the wing is mirrored.
     pub(super) fn new(name: &str, wings: &[(&str, bool)]) -> Flier {
         let (model, preset) = preset(name).expect("flap has this preset");
         let mounts: Vec<Mount> =
@@ -40,13 +40,13 @@ impl Flier {
         ])
     }
 
-    /// Returns the same vehicle with changed parameter values.
+    /// Returns a copy of this vehicle with changed parameter values.
     pub(super) fn with(mut self, changes: &[(&str, f64)]) -> Flier {
         self.values = self.changed(changes);
         self
     }
 
-    /// Returns the same vehicle with a different option of the choice `name`.
+    /// Returns a copy of this vehicle with a different option of the choice `name`.
     pub(super) fn choose(self, name: &'static str, option: usize) -> Flier {
         self.with(&[(name, f64::from(u32::try_from(option).expect("options are few")))])
     }

@@ -5,7 +5,7 @@ use nalgebra::{Matrix4, Vector4};
 use super::flier::{Flier, rounded, shown, torques};
 use crate::claim::{Claim, said};
 
-/// The names of the four wings, each with `true` if the wing is mirrored.
+/// The names of the four wings, each with a flag that is true if the wing is mirrored.
 const WINGS: [(&str, bool); 4] =
     [("front_left", false), ("front_right", true), ("back_left", false), ("back_right", true)];
 /// The names of the parameters that contain the drive voltages of the four wings.

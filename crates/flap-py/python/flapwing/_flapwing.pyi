@@ -82,7 +82,7 @@ class Diagnostic:
         The place of the mistake: line and column, counted from 1. Columns are in characters.
     start, end : int
         The place of the mistake as byte offsets in the UTF-8 text. `start` is the first byte of the mistake, and `end`
-        is the byte after the last byte.
+        is the first byte after the mistake.
     message : str
         The message about the mistake.
     notes, help : list of str
@@ -176,7 +176,8 @@ class Grid:
     @property
     def axes(self) -> list[dict[str, Any]]:
         """The axes of the grid. The last axis varies fastest. Each dictionary has the parameters that vary together along
-        an axis, with values in SI units. For an axis of a sample, the first entry is `sample`, with numbers from 0.
+        an axis, with values in SI units. If the axis is a sample, the first entry
+        is `sample`, an array with the numbers of the sampled points, which begin at 0.
         """
 
     @property

@@ -85,8 +85,8 @@ impl RunOptions {
 }
 
 impl Default for RunOptions {
-    /// Returns the best instruction set of the machine, one thread per core, a window of a few megabytes, and
-    /// 0.4 s for the last points after a stop.
+    /// Returns the best instruction set of the machine, one thread per core, and a window of a few megabytes.
+    /// After a stop, the last points have 0.4 s to finish.
     fn default() -> Self {
         let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         RunOptions { instructions: Backend::best(), threads, window: 16_384, grace: GRACE }

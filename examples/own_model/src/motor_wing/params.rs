@@ -18,7 +18,7 @@ flap_core::parameters! {
         inductance: f64 = ("H", "L_a", Number(Positive)),
         /// Torque per current.
         torque_constant: f64 = ("N*m/A", "K_t", Number(NonNegative)),
-        /// Voltage per rate of the shaft.
+        /// Back-EMF voltage of the motor per angular rate of the shaft.
         back_emf_constant: Option<f64> = ("V*s/rad", "K_b", Following(NonNegative, "torque_constant")),
         /// Inertia of the motor's rotor.
         rotor_inertia: f64 = ("kg*m^2", "J_m", Number(NonNegative)),
@@ -31,7 +31,7 @@ flap_core::parameters! {
         wing_length: f64 = ("m", "L_e", Number(Positive)),
         /// Chord at the root; the chord decreases to zero at the tip as a quarter of an ellipse.
         root_chord: Option<f64> = ("m", "L_c", Following(Positive, "a third of wing_length")),
-        /// Length of the base between the wing's two sides, with the shaft at its middle.
+        /// Length of the base between the two sides of the wing. The shaft is at the middle of the base.
         base_length: f64 = ("m", "L_b", Number(NonNegative)),
         /// Width of the base.
         base_width: f64 = ("m", "w_b", Number(NonNegative)),
