@@ -36,8 +36,8 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
 }
 
 /// Returns the size of an impulse (rad) from a number in rad or text with a unit. An impulse of more than
-/// half a turn is a `ValueError`. If `value` cannot be converted to a number, the error is the same as for
-/// [`quantity`].
+/// half a turn is a `ValueError`. If `value` cannot be converted to a number, the errors are those that
+/// [`quantity`] returns.
 pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let amplitude = quantity(name, "rad", true, value)?;
     resonance::impulse(amplitude)
@@ -47,7 +47,7 @@ pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
 /// Converts a number, or text with a unit, to a number in `unit`. If `takes_text` is false, text is an error,
 /// because the unit is already a part of `name`.
 ///
-/// Returns the same errors as [`number`], and a `ValueError` for text that cannot be converted to `unit`.
+/// Returns the errors of [`number`], and a `ValueError` for text that cannot be converted to `unit`.
 pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     match value.cast::<PyString>() {
         Ok(text) if takes_text => {

@@ -237,7 +237,7 @@ fn with_warnings(py: Python<'_>, plan: Plan) -> PyResult<Plan> {
     Ok(plan)
 }
 
-/// Returns the plan of a preset, which has one point.
+/// Returns the plan of a preset. The plan has one point.
 pub(crate) fn of_preset(py: Python<'_>, preset: &str) -> PyResult<Plan> {
     parse(py, preset, &format!("preset = \"{preset}\"\n"))
 }

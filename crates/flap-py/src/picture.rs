@@ -104,8 +104,8 @@ pub(crate) fn bars<'py>(py: Python<'py>, values: PyReadonlyArray1<'py, f64>) -> 
 
 /// Return the index of each parameter and its rank correlation with a measure, in falling order of absolute value.
 ///
-/// The result leaves out parameters without a correlation. If the values of two parameters have the same
-/// order, the result leaves out the second parameter.
+/// The result leaves out parameters without a correlation. If two parameters rank the rows in the same order,
+/// the result leaves out the second parameter.
 #[pyfunction]
 #[pyo3(signature = (parameters, measure, /))]
 #[expect(clippy::needless_pass_by_value, reason = "arrays are handed over so")]

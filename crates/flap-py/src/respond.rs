@@ -27,7 +27,7 @@ struct Judged {
 
 /// A bistable band: the ends of the band in SI units, and the stroke difference. The stroke difference is the
 /// largest difference between the peak-to-peak strokes of the rising and the falling branch (deg). The stroke
-/// difference is NaN if the two branches are never both periodic at one value in the band.
+/// difference is NaN if at every value in the band at least one branch has no periodic motion.
 #[derive(IntoPyObject)]
 struct Band {
     start: f64,

@@ -56,7 +56,7 @@ pub(crate) fn wrench_map<'py>(
     into_python(py, &chosen, &map)
 }
 
-/// Returns the input `name` of the map, whose values are between `from` and `to`.
+/// Returns the input `name` of the map, with the range from `from` to `to`.
 fn input(chosen: &Chosen, name: &str, from: &Bound<'_, PyAny>, to: &Bound<'_, PyAny>) -> PyResult<MapInput> {
     let input = inputs::input(&chosen.plan, name).map_err(|error| error::argument("ranges", &error))?;
     let parameter = &chosen.plan.parameters()[input.parameter];

@@ -122,8 +122,8 @@ pub(crate) fn size(simulator: &dyn Simulator, values: &[f64], index: usize) -> O
     typical.filter(|typical| known.is_none_or(|value| value.abs() < *typical)).or(known)
 }
 
-/// Returns true if a parameter is zero and cannot be negative. For such a parameter, finite differences must
-/// be one-sided.
+/// Returns true if a parameter is zero and cannot be negative. Finite differences with respect to a parameter
+/// at its lower limit must be one-sided.
 pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -> bool {
     let (Kind::Number(range) | Kind::Following(range, _)) = parameters[index].kind else { return false };
     standing(parameters, values, index) == 0.0 && !range.contains(-f64::MIN_POSITIVE)
@@ -140,9 +140,9 @@ pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
 /// Returns the typical size of a parameter in SI units.
 ///
 /// For a parameter of one wing or a left-right difference, the typical size is the reference size of the
-/// parameter of all wings. If a parameter is of neither kind, its typical size is the largest published
-/// value, or a usual value for insect-scale robots. A parameter with published values has a typical size only
-/// if its value is small.
+/// parameter of all wings. For a parameter with published values, the typical size is the largest published
+/// value. If the value of a parameter with published values is not small, the parameter has no typical size.
+/// For a parameter without published values, the typical size is a usual value for insect-scale robots.
 fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let parameters = simulator.parameters();
     let parameter = &parameters[index];

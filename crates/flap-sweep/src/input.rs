@@ -78,8 +78,8 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
 
 /// Opens the file at `path`.
 ///
-/// The path may be a pipe that the shell opened, such as `/dev/stdin` or `<(command)`. The data of such a
-/// pipe end when the command that writes into the pipe ends.
+/// The path may be a pipe that the shell opened, such as `/dev/stdin` or `<(command)`. The data of the
+/// shell's pipe end when the command that writes into the pipe ends.
 ///
 /// # Errors
 /// [`InputError`] if the path is not a file, or cannot be opened.

@@ -121,7 +121,7 @@ fn frequency(
 }
 
 /// Returns the ends of the frequency band in which the stroke is at least 1/√2 of the largest stroke. The
-/// ends are interpolated between the computed frequencies.
+/// ends of the band are interpolated between the computed frequencies.
 fn half_power_band(response: &Response) -> [f64; 2] {
     let strokes = response.column(STROKE);
     let (peak, point) = response.peak(STROKE);

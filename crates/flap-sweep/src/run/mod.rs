@@ -52,8 +52,7 @@ pub use workers::Run;
 pub(crate) use workers::Worker;
 pub use writer::{RowWriter, Sink, Written};
 
-/// Options of a run. The output depends only on the arithmetic of the instruction set, and not on the other
-/// options.
+/// Options of a run. Of all options, only the arithmetic of the instruction set has an effect on the output.
 #[derive(Clone, Copy, Debug)]
 pub struct RunOptions {
     /// SIMD instruction set with which the lanes are computed.

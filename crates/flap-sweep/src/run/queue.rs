@@ -127,7 +127,7 @@ impl<T> Queue<T> {
         self.outcomes.notify_one();
     }
 
-    /// Returns true if workers must abandon their unfinished units of work, which then have no outcomes.
+    /// Returns true if workers must abandon their unfinished units of work. Abandoned units have no outcomes.
     pub(super) fn is_cancelled(&self) -> bool {
         self.cancelled.load(Ordering::Relaxed)
     }

@@ -79,7 +79,7 @@ impl<T: Send + 'static> Run<T> {
         self.progress
     }
 
-    /// Stops the run: worker threads begin no further units of work.
+    /// Stops the run: worker threads begin no new units of work.
     ///
     /// Units of work that are not finished after the time [`RunOptions::grace`] are discarded. With the
     /// default grace time, the run ends within a second.
@@ -163,7 +163,7 @@ impl<T> Worker<'_, T> {
         self.fault = Some(fault);
     }
 
-    /// Returns true if the worker must abandon its unfinished units of work, which then have no rows.
+    /// Returns true if the worker must abandon its unfinished units of work. Abandoned units have no rows.
     pub(crate) fn is_cancelled(&self) -> bool {
         self.queue.is_cancelled()
     }

@@ -168,8 +168,8 @@ impl<'a> RowWriter<'a> {
         &self.layout
     }
 
-    /// Returns the number of finished points. The next point has this number as its position in the list of
-    /// selected points.
+    /// Returns the number of finished points. The number of finished points is also the position of the next
+    /// point in the list of selected points.
     pub fn done(&self) -> u64 {
         self.summary.done()
     }

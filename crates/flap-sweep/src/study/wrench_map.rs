@@ -1,4 +1,4 @@
-//! Computes the mean force and torque of a vehicle as quadratic polynomials of its inputs, for
+//! Computes the mean force and torque of a vehicle as quadratic polynomials of the vehicle's inputs, for
 //! model-predictive controllers.
 //!
 //! ```text
@@ -136,7 +136,7 @@ impl WrenchMap {
     pub const SAMPLES: u32 = 400;
 
     /// Computes the wrench map for the vehicle of `plan`. The `inputs` vary in their ranges, and all
-    /// remaining parameters have the `values` of a point.
+    /// parameters that are not inputs have the `values` of a point.
     ///
     /// The inputs have the values of a scrambled Sobol' sequence with `samples` points. The map does not
     /// depend on the number of threads. During the computation, `stops` is called several times a second. If

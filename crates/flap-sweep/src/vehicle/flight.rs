@@ -276,8 +276,8 @@ impl<'a> Coupled<'a> {
         self.y.resize(self.integrator.scale.len(), 0.0);
     }
 
-    /// Returns the part of the mean velocities, rates and angles over the first beat that results only from
-    /// the vibration of the body.
+    /// Returns the contribution of the body's vibration to the mean velocities, rates and angles over the
+    /// first beat.
     ///
     /// The result is the mean over a beat that begins at rest, minus half of the value at the end of the
     /// beat. For a linear change that begins at rest, the mean is half of the end value.

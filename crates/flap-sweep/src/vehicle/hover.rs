@@ -422,9 +422,9 @@ pub(super) fn inverse_mass(body: &MassProperties) -> Result<Matrix6<f64>, HoverE
 
 /// Computes the modes of motion from the state matrix.
 ///
-/// Heading and position have no effect on the remaining eight states. Heading and each position therefore
-/// have a separate mode with the eigenvalue zero. The eigenvectors are computed only for the eight states
-/// other than heading and position.
+/// Heading and position have no effect on the eight states other than heading and position. Heading and each
+/// position therefore have a separate mode with the eigenvalue zero. The eigenvectors are computed only for
+/// these eight states, without heading and position.
 fn modes(a: &DMatrix<f64>) -> Result<Vec<HoverMode>, HoverError> {
     /// Largest number of iterations for the eigenvalues of eight states.
     const MOST_ITERATIONS: usize = 10_000;

@@ -12,8 +12,8 @@ use crate::derivative::reasons_of;
 use crate::plan::Plan;
 use crate::run::{Outcome, RunError, RunOptions, alone};
 
-/// If a row has no derivative, flap computes a difference between two rows with this distance between their
-/// coordinates.
+/// If a row has no derivative, flap computes a difference between two rows. This value is the distance
+/// between the coordinates of the two rows.
 const STEP: f64 = 2e-3;
 
 /// For designs at resonance or at hover, this distance replaces [`STEP`]. The distance is larger than

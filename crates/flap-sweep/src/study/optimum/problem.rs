@@ -180,8 +180,8 @@ impl Problem {
         self.sloped.is_some()
     }
 
-    /// The index of the goal in the measures of a row. After the goal, the measures contain the values of
-    /// both sides of each limit.
+    /// The index of the goal in the measures of a row. In the list of measures, the goal is followed by the
+    /// values of both sides of each limit.
     pub(super) fn goal_index(&self) -> usize {
         self.plan.rows().columns().len() + self.plan.measures().len()
     }

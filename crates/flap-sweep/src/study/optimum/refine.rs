@@ -15,8 +15,8 @@ use super::sensitivity::{CONVERGED, active};
 /// this clearance, the optimum satisfies the limit in spite of rounding errors.
 const CLEARANCE: f64 = 1e-6;
 
-/// A point is also accepted if its distance from the limit is smaller than the clearance by this fraction of
-/// the limit's size. The numerical errors of rows are about as large as this fraction.
+/// A point is also accepted if its clearance is smaller than [`CLEARANCE`] by at most this value. This value,
+/// a fraction of the limit's size, is about as large as the numerical errors of rows.
 const CLEARANCE_ERROR: f64 = 5e-7;
 
 /// The search from one start ends when the relative change of the goal in a step is smaller than this value.

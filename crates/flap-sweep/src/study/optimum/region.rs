@@ -1,5 +1,5 @@
-//! The region in which an optimum is sought. Some parameters vary continuously between two values, and for
-//! the remaining parameters each value is tried.
+//! The region in which an optimum is sought. Some parameters vary continuously between two values. For
+//! parameters that do not vary continuously, each value is tried.
 
 use flap_core::parameter::{Kind, Parameter, Range};
 
@@ -122,7 +122,7 @@ impl Region {
     }
 
     /// Returns the indices and values of all varied parameters. `coordinates` gives the values of continuous
-    /// parameters, and `choice` the values of the remaining parameters.
+    /// parameters, and `choice` the values of the parameters that do not vary continuously.
     pub(super) fn varied(&self, coordinates: &[f64], choice: &[f64]) -> Vec<(usize, f64)> {
         let continuous = self.variables.iter().zip(coordinates);
         let continuous = continuous.map(|(variable, &at)| (variable.parameter, variable.value(at)));

@@ -18,14 +18,14 @@ use crate::run::{Run, RunError, RunOptions};
 /// Tolerances with which two end points of searches count as one optimum. Each pair of tolerances contains
 /// the largest relative difference of the goal and the largest difference of the coordinates.
 ///
-/// Two end points count as one optimum if their differences are within the tolerances of one pair. The pair
-/// with the smaller tolerance of the goal has the larger tolerance of the coordinates.
+/// Two end points count as one optimum if the differences of goal and coordinates are within both tolerances
+/// of a pair. The pair with the smaller tolerance of the goal has the larger tolerance of the coordinates.
 const SAME_OPTIMUM: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
 
 /// Settings of an optimisation.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Number of threads, instruction set, and further options of the runner.
+    /// Options of the runner, for example the number of threads and the instruction set.
     pub run: RunOptions,
     /// Largest number of searches. Each search starts from a different grid point.
     pub starts: NonZeroUsize,
@@ -91,8 +91,8 @@ pub fn optimise(
     Ok(answer(problem, &ends, computed))
 }
 
-/// Returns the best point of an optimisation problem, like [`optimise`]. The searches start from `designs`,
-/// which are results of problems with the same plan.
+/// Returns the best point of an optimisation problem, like [`optimise`]. The searches start from `designs`.
+/// The `designs` must be results of problems with the plan of `problem`.
 ///
 /// # Errors
 /// The errors of [`optimise`].

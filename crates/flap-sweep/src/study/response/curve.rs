@@ -107,7 +107,7 @@ impl Curve {
 }
 
 /// Two periodic motions count as the same motion if no state component differs by more than this fraction of
-/// its size. The states are compared at the beginning of a drive period.
+/// its largest magnitude. The states are compared at the beginning of a drive period.
 ///
 /// flap reports bistability only if the states of the two motions differ. The column `bistable`, the pictures
 /// and the live page show the result of comparing the states. The comparison uses states and not measures,

@@ -55,8 +55,8 @@ const FIRST: usize = 20;
 /// Largest number of iterations of regula falsi for the position of a cusp or a turn.
 const MARKED: usize = 50;
 
-/// Change of a state component or a parameter with which derivatives are computed as differences. The units
-/// are the same as for [`STEPS`].
+/// Change of a state component or a parameter with which derivatives are computed as differences. The unit of
+/// a change is the unit in [`STEPS`].
 const CHANGE: f64 = 1e-3;
 
 /// The tolerances of the integration are the tolerances of the plan times this factor.
@@ -77,7 +77,7 @@ const ON_CHORD: f64 = 0.2;
 impl Responses<'_> {
     /// Returns the edges on which the bistable bands of `curve` end. Each edge is a curve in the plane of two
     /// parameters: the parameter of the response, and the parameter of `second`. `curve` must be a response
-    /// of the same plan.
+    /// of the plan of `self`.
     ///
     /// If the computation is interrupted, edges are missing or incomplete.
     pub fn edges(self, curve: &Curve, second: &EdgeRange, interrupted: Interrupt<'_>) -> Edges {

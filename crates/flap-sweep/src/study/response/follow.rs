@@ -1,9 +1,9 @@
 //! Computes the upward and the downward branch of a response.
 //!
 //! First, both branches are computed at the given values of the parameter, one value after the other. Then
-//! two kinds of steps between values are halved until each step is at most as long as the tolerance. At the
-//! value in the middle of a step, the motion of each branch starts from the neighbouring motion on this
-//! branch. The following kinds of steps are halved:
+//! two kinds of steps between neighbouring values are halved, until each of these steps is at most as long as
+//! the tolerance. At the value in the middle of a step, the motion of each branch starts from the
+//! neighbouring motion on this branch. The following kinds of steps are halved:
 //!
 //! - Steps that contain an end of a bistable band, because both branches have the same motion at only one end
 //!   of the step.
@@ -110,8 +110,8 @@ impl<'a> Follow<'a> {
         Point { begin: begin.filter(|state| !state.is_empty()), ..Point::at_rest(0, values) }
     }
 
-    /// Returns the steps between neighbouring values. A step is left out if neither motion at one of its ends
-    /// repeats every drive period.
+    /// Returns the steps between neighbouring values. A step is left out if it has an end at which neither
+    /// the upward nor the downward branch repeats every drive period.
     fn intervals(&self) -> Vec<Interval> {
         let sizes = component_sizes(&self.up, &self.down);
         let places: Vec<(&Step, &Step, Comparison)> = (self.up.iter().zip(self.down.iter().rev()))

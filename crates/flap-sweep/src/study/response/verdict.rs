@@ -189,8 +189,8 @@ fn span([from, to]: [f64; 2], unit: &str) -> String {
     text.trim_end().to_owned()
 }
 
-/// Returns the length of a step as text, such as `0.5 Hz`. The unit prefix is the same as for the ends of
-/// `range`.
+/// Returns the length of a step as text, such as `0.5 Hz`. The text has the unit prefix that flap prints for
+/// the ends of `range`.
 fn length(value: f64, range: [f64; 2], unit: &str) -> String {
     let Scale { factor, unit } = scale(range, unit);
     format!("{} {unit}", six_digits(value * factor)).trim_end().to_owned()
