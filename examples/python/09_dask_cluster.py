@@ -19,8 +19,9 @@ For Kubernetes (pip install dask-kubernetes), use an image that contains flapwin
     cluster = KubeCluster(image="registry.example/flapwing")
     cluster.scale(64)
 
-All workers must have the same build of flapwing, and processors with the same rounding. Otherwise the
-sweep ends with an error. The workers do not write the result file, because the process of the script writes the file.
+All workers must have the same build of flapwing, and processors with the same rounding. If the builds or the rounding
+of two workers differ, the sweep ends with an error. The workers do not write the result file, because the process of
+the script writes the file.
 
 The script requires Dask: pip install distributed
 

@@ -36,8 +36,8 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
 }
 
 /// Returns the size of an impulse (rad) from a number in rad or text with a unit. An impulse of more than
-/// half a turn is a `ValueError`. If `value` cannot be converted to a number, the errors are those that
-/// [`quantity`] returns.
+/// half a turn is a `ValueError`. If `value` cannot be converted to a number, returns the error of
+/// [`quantity`].
 pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let amplitude = quantity(name, "rad", true, value)?;
     resonance::impulse(amplitude)

@@ -58,7 +58,8 @@ pub(crate) fn plan_of_model(
     set(with_solver(plan, &solver)?, &keywords).map(Some)
 }
 
-/// Returns an error if the plan describes a vehicle. Calls that simulate only one wing use this check.
+/// Returns an error if the plan describes a vehicle. Functions that simulate only one wing call this
+/// function.
 pub(crate) fn check_one_wing(plan: &Plan) -> PyResult<()> {
     let Some(vehicle) = plan.vehicle() else { return Ok(()) };
     let wings = text::count(vehicle.mounts().len() as u64, "wing");

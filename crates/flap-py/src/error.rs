@@ -43,8 +43,8 @@ pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
     with_diagnostics(py, diagnostic::render(mistakes, false), diagnostics)
 }
 
-/// Returns a `GridError` for a dictionary that cannot be written as a grid file. Diagnostics refer to lines
-/// of a file, so this error has no diagnostics.
+/// Returns a `GridError` for a dictionary that cannot be written as a grid file. The error has no
+/// diagnostics, because diagnostics refer to lines of a file.
 pub(crate) fn no_grid(py: Python<'_>, message: &str) -> PyErr {
     with_diagnostics(py, message.to_owned(), Vec::new())
 }

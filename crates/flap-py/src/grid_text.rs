@@ -48,8 +48,8 @@ pub(crate) fn text_of(entries: &Bound<'_, PyDict>) -> PyResult<String> {
 /// dictionary is paired with the key of its list.
 type Blocks<'py> = Vec<(String, Bound<'py, PyDict>)>;
 
-/// Separates the entries of a table that are lists of dictionaries, such as the wings of a vehicle, from all
-/// other entries.
+/// Separates the lists of dictionaries in a table, such as the wings of a vehicle, from all other entries of
+/// the table.
 fn split<'py>(table: &Bound<'py, PyDict>) -> PyResult<(Bound<'py, PyDict>, Blocks<'py>)> {
     let (plain, mut blocks) = (PyDict::new(table.py()), Vec::new());
     for (key, value) in table {

@@ -17,7 +17,7 @@ use crate::{convert, design, error, sweep};
 /// A design point and its plan.
 pub(crate) struct Chosen {
     pub(crate) plan: Plan,
-    /// Value of each parameter, in the order of the parameters.
+    /// Value of each parameter, in the order of the parameter table.
     pub(crate) values: Vec<f64>,
     /// The model whose drive or stroke is replaced by samples, if the call gives a waveform or a stroke.
     sampled: Option<Box<dyn Simulator>>,

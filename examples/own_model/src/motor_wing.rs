@@ -200,7 +200,7 @@ impl Model<3> for MotorWing {
     }
 
     /// The spring, the inertia and the inductance return all stored energy within a period. The power balance
-    /// therefore leaves out the powers of these three parts.
+    /// therefore leaves out the powers of spring, inertia and inductance.
     fn balance_energy(cycle: &mut Signals<SignalCycle>) {
         let &mut Signals { power_air, power_resistive, power_bearing, power_magnetic, .. } = cycle;
         cycle.power.balance(&[power_air, power_resistive, power_bearing, power_magnetic]);

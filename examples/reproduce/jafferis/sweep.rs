@@ -60,8 +60,8 @@ fn as_settled() -> Claim {
     )
 }
 
-/// Returns a claim about a soft hinge with half of the stiffness in Table I. With the soft hinge, the natural
-/// frequencies of pitch and stroke are close, and the wing has two settled motions.
+/// Returns a claim about a soft hinge with half of the hinge stiffness in Table I. With the soft hinge, the
+/// natural frequencies of pitch and stroke are close, and the wing has two settled motions.
 fn soft_hinge() -> Claim {
     let table_1 = table_1();
     let soft = Params { hinge_stiffness: 0.5 * table_1.hinge_stiffness, ..table_1.clone() };

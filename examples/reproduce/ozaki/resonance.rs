@@ -10,8 +10,8 @@ const IMPULSES: [f64; 3] = [0.3, 0.5, 0.8];
 const MIDDLE: usize = 1;
 /// Number of periods of the first mode, counted from the impulse, to which the damped sine is fitted.
 const WINDOW: u32 = 4;
-/// Numbers of periods of the first mode in longer fits. These fits show how the fitted frequency depends on
-/// the number of periods.
+/// Numbers of periods of the first mode in fits over more than [`WINDOW`] periods. Fits over more periods
+/// show how the fitted frequency depends on the number of periods.
 const LONGER: [u32; 2] = [5, 10];
 
 /// A published frequency (Hz), as a number and as the text that the page shows.

@@ -10,7 +10,7 @@ use crate::refine::Refined;
 use crate::resonance::RESONANCE_MARGIN_HZ;
 use crate::vehicle::{HOVER_RESIDUAL, TRIM_LIMIT};
 
-/// Number of rows with each status. In files, these numbers are a table whose keys are the names of the
+/// Number of rows with each status. In files, the numbers of rows are a table whose keys are the names of the
 /// statuses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "HashMap<Status, u64>", into = "BTreeMap<&'static str, u64>")]
@@ -45,8 +45,8 @@ impl From<Counts> for BTreeMap<&'static str, u64> {
 pub struct Warnings {
     /// Number of rows whose error estimate exceeds the requested accuracy.
     pub inaccurate: u64,
-    /// Number of rows with a negative mean electrical power. In these rows, the air adds more energy to the
-    /// wing than the air removes.
+    /// Number of rows with a negative mean electrical power. At a negative mean power, the air adds more
+    /// energy to the wing than the air removes.
     pub negative_power: u64,
     /// Number of rows whose resonance is at the smallest or largest frequency of the search.
     pub at_range_end: u64,

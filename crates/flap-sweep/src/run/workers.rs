@@ -56,8 +56,8 @@ impl<T: Send + 'static> Run<T> {
     /// Waits at most a tenth of a second and returns the next outcomes, which may be an empty list. Returns
     /// `None` after the last outcome.
     ///
-    /// If your program shows the progress or must react to interruptions, call `next_batch` repeatedly.
-    /// Otherwise use the run as an iterator.
+    /// If your program shows the progress or must react to interruptions, call `next_batch` repeatedly. If
+    /// your program needs neither the progress nor interruptions, use the run as an iterator.
     ///
     /// # Errors
     /// [`RunError`] if a worker thread panics or cannot be started, or if the model returns wrong rows.

@@ -27,7 +27,7 @@ pub trait Sink {
     }
 
     /// Returns the rows that earlier runs have written to this output, with the cells as text. If a run with
-    /// refinement is resumed, the refinement reads these rows.
+    /// refinement is resumed, the refinement reads the rows of earlier runs.
     ///
     /// # Errors
     /// The error of the operating system if the file with the rows cannot be opened.

@@ -51,7 +51,7 @@ const SEED: u64 = 0;
 pub struct MapInput {
     /// Name of the input as the user gives it (see [`Input::of`]).
     pub name: String,
-    /// Index in the vehicle's parameter table.
+    /// Index of the input's parameter in the vehicle's parameter table.
     pub parameter: usize,
     /// Smallest value of the input (SI).
     pub from: f64,
@@ -120,7 +120,8 @@ pub struct WrenchMap {
     pub fitted: usize,
     /// Number of rows that were left out of the fit to test the map.
     pub left_out: usize,
-    /// For each status without a periodic motion, the number of rows. These rows are not used.
+    /// Numbers of rows without a periodic motion, for each status. The fit does not use rows without a
+    /// periodic motion.
     pub unused: Vec<(Status, usize)>,
     /// Largest magnitude of the Floquet multipliers among all rows with a periodic motion. NaN if unknown.
     pub floquet_max: f64,

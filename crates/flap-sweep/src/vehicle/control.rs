@@ -33,7 +33,7 @@ const DIFFERENCE: &str = "_difference";
 pub struct Input {
     /// Name as the user gives it: the name of a parameter, or a word such as `bias_difference`.
     pub name: String,
-    /// Index in the vehicle's parameter table.
+    /// Index of the input's parameter in the vehicle's parameter table.
     pub parameter: usize,
     /// Unit in which flap prints the input, such as `V` or `deg`. Empty if the input has no unit.
     pub unit: &'static str,
@@ -89,8 +89,8 @@ impl Input {
         inputs.filter(|input| input.unset(vehicle, values).is_none()).collect()
     }
 
-    /// Returns all names that inputs of the vehicle can have. Error messages suggest the nearest of these
-    /// names.
+    /// Returns all names that inputs of the vehicle can have. Error messages suggest the most similar of the
+    /// input names.
     pub fn names(vehicle: &Vehicle) -> Vec<String> {
         let words = WORDS.iter().flat_map(|(word, _)| {
             let of_wings = vehicle.mounts().iter().map(move |mount| format!("{}_{word}", mount.name));

@@ -237,8 +237,8 @@ pub fn trim(
 /// A mode of motion, with one real eigenvalue or a pair of complex eigenvalues.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HoverMode {
-    /// Eigenvalue of the mode (1/s). Of a complex pair, this is the eigenvalue with the positive imaginary
-    /// part.
+    /// Eigenvalue of the mode (1/s). For a complex pair, the field contains the eigenvalue with the positive
+    /// imaginary part.
     pub eigenvalue: Complex<f64>,
     /// Participation of each state in the mode. The sum over all states is 1. The participation does not
     /// depend on the units of the states.
@@ -424,7 +424,7 @@ pub(super) fn inverse_mass(body: &MassProperties) -> Result<Matrix6<f64>, HoverE
 ///
 /// Heading and position have no effect on the eight states other than heading and position. Heading and each
 /// position therefore have a separate mode with the eigenvalue zero. The eigenvectors are computed only for
-/// these eight states, without heading and position.
+/// the eight states without heading and position.
 fn modes(a: &DMatrix<f64>) -> Result<Vec<HoverMode>, HoverError> {
     /// Largest number of iterations for the eigenvalues of eight states.
     const MOST_ITERATIONS: usize = 10_000;

@@ -113,8 +113,8 @@ impl BodyRows {
         values
     }
 
-    /// Returns the derivatives of the measures of `row`. This source of rows must have computed the row for
-    /// the parameter values of `run`.
+    /// Returns the derivatives of the measures of `row`. The row must be the result of this object for the
+    /// parameter values of `run`.
     ///
     /// If a parameter changes at hover, the inputs also change, so that the vehicle keeps hovering. The
     /// growth rate, the period, the residual and the damping matrix have no derivatives.

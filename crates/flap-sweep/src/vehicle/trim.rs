@@ -50,8 +50,8 @@ pub struct Trim {
 /// solution with the shortest step, measured in typical sizes of the inputs.
 ///
 /// # Errors
-/// An error if there are fewer inputs than targets, if the motion at the initial inputs is not periodic, or
-/// if the iteration does not reach the targets.
+/// An error if there are fewer inputs than targets, if the initial motion is not periodic, or if the
+/// iteration does not reach the targets.
 pub fn to_targets(
     vehicle_run: &VehicleRun<'_>,
     values: &[f64],

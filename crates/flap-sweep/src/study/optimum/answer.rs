@@ -20,7 +20,7 @@ impl Status {
     /// All statuses.
     pub const ALL: [Status; 3] = [Status::Optimal, Status::Approximate, Status::Infeasible];
 
-    /// The word that stands for this value in results.
+    /// Returns the word for this status in results.
     pub fn name(self) -> &'static str {
         match self {
             Status::Optimal => "optimal",
@@ -42,7 +42,7 @@ pub enum Edge {
 }
 
 impl Edge {
-    /// The word that stands for this value in results.
+    /// Returns the word for this kind of restriction in results.
     pub fn name(self) -> &'static str {
         match self {
             Edge::Limit => "limit",

@@ -247,8 +247,8 @@ fn pattern(points: &Evaluator<'_>, mut best: Rc<Trial>) -> Rc<Trial> {
     best
 }
 
-/// Returns the directions of the coordinate axes. The list also contains the projections of these directions
-/// onto the nearby limits.
+/// Returns the directions of the coordinate axes, and the projections of these directions onto the nearby
+/// limits.
 fn directions(problem: &Problem, at: &Trial) -> Vec<Vec<f64>> {
     let dimensions = at.coordinates.len();
     let axis = |number: usize| DVector::from_fn(dimensions, |row, _| if row == number { 1.0 } else { 0.0 });

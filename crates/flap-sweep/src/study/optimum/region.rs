@@ -57,8 +57,8 @@ impl Variable {
 pub(super) struct Region {
     pub(super) variables: Vec<Variable>,
     /// Indices of the parameters that do not vary continuously: the optimisation tries each of their values.
-    /// These parameters are choices, whole numbers, parameters with one value, and parameters of an axis with
-    /// several parameters.
+    /// Choices, whole numbers, parameters with one value, and parameters of an axis with several parameters
+    /// do not vary continuously.
     pub(super) enumerated: Vec<usize>,
 }
 

@@ -19,7 +19,7 @@ use crate::run::{Run, RunError, RunOptions};
 /// the largest relative difference of the goal and the largest difference of the coordinates.
 ///
 /// Two end points count as one optimum if the differences of goal and coordinates are within both tolerances
-/// of a pair. The pair with the smaller tolerance of the goal has the larger tolerance of the coordinates.
+/// of a pair. For a smaller difference of the goal, a larger difference of the coordinates is allowed.
 const SAME_OPTIMUM: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
 
 /// Settings of an optimisation.

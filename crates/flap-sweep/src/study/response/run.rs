@@ -19,8 +19,8 @@ use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 /// memory could be too small.
 const AHEAD: [usize; 2] = [16, 128];
 
-/// The responses of the designs of a plan. The designs are the selected points of the plan. Designs that
-/// conditions exclude at all values of the parameter of the response have no response.
+/// The responses of the designs of a plan. The designs are the selected points of the plan. If conditions
+/// exclude a design at every value of the response's parameter, the design has no response.
 #[derive(Clone, Copy)]
 pub struct Responses<'a> {
     pub(super) plan: &'a Plan,

@@ -43,7 +43,7 @@ pub struct Band {
     pub kind: BandKind,
 }
 
-/// Kind of the motions in a band in which the response is not a single orbit.
+/// Kind of the motions in a band in which the two branches do not have one common orbit.
 #[derive(Clone, Debug, PartialEq)]
 pub enum BandKind {
     /// The upward and the downward branch have two different motions.
