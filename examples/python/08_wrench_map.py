@@ -7,7 +7,8 @@
 
 The inputs are the amplitude of both wings, the difference of the amplitudes, the bias, and the second harmonic. The
 second harmonic has opposite signs on the two wings. The script template/sdab_num_wrenchmap.py of robobee3d
-(https://github.com/avikde/robobee3d) varies the four inputs of this example, but simulates one combination at a time."""
+(https://github.com/avikde/robobee3d) varies the four inputs of this example, but simulates the combinations one at a
+time."""
 
 from __future__ import annotations
 

@@ -44,8 +44,8 @@ pub enum InputError {
     },
 }
 
-/// Returns the error of the operating system if there is one. For all other reasons, returns an error with
-/// the message of the [`InputError`] and a suitable [`io::ErrorKind`].
+/// Returns the error of the operating system if there is one. If the operating system reported no error,
+/// returns an error with the message of the [`InputError`] and a suitable [`io::ErrorKind`].
 impl From<InputError> for io::Error {
     fn from(error: InputError) -> io::Error {
         let kind = match error {

@@ -21,9 +21,10 @@ pub struct Slopes {
 /// measure in the measures of `row`.
 ///
 /// `row` is the row of the point `run`. If rows are computed at hover or with the damping matrix, the
-/// derivatives come from [`Plan::body`]. For all other rows, the derivatives come from `simulator`, the model
-/// of the plan. When a parameter changes, derived parameters change too, except the parameters in `fixed`. At
-/// hover, the inputs change so that the vehicle with the changed parameter still hovers.
+/// derivatives come from [`Plan::body`]. For rows without hover and without the damping matrix, the
+/// derivatives come from `simulator`, the model of the plan. When a parameter changes, derived parameters
+/// change too, except the parameters in `fixed`. At hover, the inputs change so that the vehicle with the
+/// changed parameter still hovers.
 ///
 /// # Errors
 /// [`Unfinished`], as in

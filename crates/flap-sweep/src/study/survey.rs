@@ -17,8 +17,8 @@ pub struct Exclusions {
 
 /// Counts the points that the conditions of `plan` exclude.
 ///
-/// If the plan has at most `most` points, the function examines all points. If the plan has more points, the
-/// function examines `most` points that are spread over the plan.
+/// If the plan has at most `most` points, the function examines all points. If the plan has more than `most`
+/// points, the function examines `most` points that are spread over the plan.
 pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
     let conditions = plan.conditions().iter();
     let unsatisfied =
@@ -39,7 +39,7 @@ pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
 /// Returns an element of an endless sequence of point indices that are evenly spread over a plan. `number` is
 /// the position in the sequence, and `points` is the number of points of the plan.
 ///
-/// Each index is the fractional part of a multiple of the golden ratio, times `points`. Indices from the
+/// Each index is the fractional part of a multiple of the golden ratio, times `points`. Multiples of the
 /// golden ratio leave no large gaps and have no common period with any axis.
 pub fn spread(number: u64, points: u64) -> u64 {
     const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;

@@ -254,7 +254,7 @@ pub struct HoverModel {
     /// Mass properties of the vehicle.
     pub body: MassProperties,
     /// The damping matrix: derivatives of force and torque (rows) with respect to velocity and rates of the
-    /// body (columns). The units of its four blocks are N·s/m, N·s, N·s and N·m·s.
+    /// body (columns). The units of the four blocks of the damping matrix are N·s/m, N·s, N·s and N·m·s.
     pub damping: Matrix6<f64>,
     /// The control matrix: derivatives of force (N) and torque (N·m) with respect to the inputs (SI). The
     /// matrix has six rows and one column for each input.

@@ -115,7 +115,7 @@ fn missed_by(wrench: &[f64; 6], targets: &[Target]) -> DVector<f64> {
     DVector::from_iterator(targets.len(), missed)
 }
 
-/// Returns the largest magnitude among the six components and the target values.
+/// Returns the largest magnitude among the six components of force and torque and the target values.
 fn largest(wrench: &[f64; 6], targets: &[Target]) -> f64 {
     let targets = targets.iter().map(|target| &target.value);
     wrench.iter().chain(targets).fold(0.0, |one: f64, other| one.max(other.abs()))

@@ -34,8 +34,8 @@ const CHANGE: f64 = 1e-3;
 
 /// The tolerances of the integration are the tolerances of the plan times this factor.
 ///
-/// The errors of the integrated states must be far below `settle_tol`. With larger errors, Newton's iteration
-/// may not find the next orbit.
+/// The errors of the integrated states must be far below `settle_tol`. With errors near `settle_tol`,
+/// Newton's iteration may not find the next orbit.
 const FINER: f64 = 1e-2;
 
 /// Returns the unstable orbits in all bistable bands of a curve. If the computation is interrupted, the list

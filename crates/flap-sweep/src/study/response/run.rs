@@ -12,8 +12,8 @@ use crate::plan::{Admission, Along, Plan};
 use crate::resonance::sequence::{self, Sequence, SequenceSource};
 use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
-/// Limits of the window per thread: the largest number of responses that may be computed beyond the last
-/// returned response.
+/// Limits of the window, divided by the number of threads. The window is the largest number of responses that
+/// may be computed beyond the last returned response.
 ///
 /// With a window below the lower limit, some lanes would be empty. With a window above the upper limit, the
 /// memory could be too small.
