@@ -57,7 +57,7 @@ pub(crate) const PAPER: Paper = Paper {
     ],
 };
 
-/// One of the two robots of the paper, with the range of drive frequencies of its responses.
+/// One of the two robots of the paper, with the range of drive frequencies of the robot's responses.
 struct System {
     name: &'static str,
     params: Params,

@@ -31,8 +31,8 @@ pub(crate) enum Verdict {
     CannotBeChecked(&'static str),
 }
 
-/// Largest allowed relative difference for a resonance, or for a number that the paper computed from the same
-/// parameters.
+/// Largest allowed relative difference for a resonance, or for a number that the paper computed from the
+/// parameters that flap uses.
 const CLOSELY: f64 = 0.03;
 /// Largest allowed relative difference for a number that the paper calls approximate.
 const ABOUT: f64 = 0.10;
@@ -51,8 +51,8 @@ pub(crate) struct Expected {
     limit: f64,
 }
 
-/// Returns the expected value of a resonance, or of a number that the paper computed from the same
-/// parameters.
+/// Returns the expected value of a resonance, or of a number that the paper computed from the parameters that
+/// flap uses.
 pub(crate) fn closely(value: f64, rounding: f64) -> Expected {
     Expected { value, rounding, limit: CLOSELY }
 }

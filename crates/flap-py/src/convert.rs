@@ -59,7 +59,7 @@ pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'
 }
 
 /// Returns a whole number from 1 to the largest `u32`. A value that is not a whole number is a `TypeError`,
-/// and a whole number outside of the range is a `ValueError`.
+/// and a whole number below 1 or above the largest `u32` is a `ValueError`.
 pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
     let wanted = "a whole number";
     if value.is_instance_of::<PyBool>() {

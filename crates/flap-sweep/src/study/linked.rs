@@ -15,8 +15,8 @@ pub struct Linked<'p> {
     pub value: f64,
     /// Names of the varied parameters with which the constant parameter should scale.
     pub varied: Vec<&'p str>,
-    /// Formula for the table `[derived]` of the grid file, with which the parameter scales with the varied
-    /// parameters.
+    /// Formula for the table `[derived]` of the grid file. With this formula, the constant parameter scales
+    /// with the varied parameters.
     pub formula: String,
 }
 

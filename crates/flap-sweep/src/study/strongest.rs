@@ -69,8 +69,9 @@ pub fn slopes(
     Ok(Slopes { known, unknown })
 }
 
-/// Returns the parameters that can have small relative changes. Parameters that are zero, not set, whole
-/// numbers, choices, derived, or inputs that the search for hover changes are left out.
+/// Returns the parameters that can have small relative changes. The result leaves out choices, whole numbers,
+/// derived parameters, and parameters that are zero or not set. The result also leaves out inputs that the
+/// search for hover changes.
 fn changing(plan: &Plan, values: &[f64]) -> Vec<usize> {
     let parameters = plan.parameters().iter().enumerate();
     let changing = parameters.filter(|(index, parameter)| {

@@ -327,7 +327,7 @@ impl HoverModel {
         HoverModel::new(body, damping, control, wrench, has_position)
     }
 
-    /// Returns the names and units of the states. The outputs have the same names and units.
+    /// Returns the names and units of the states. The outputs have the names and units of the states.
     pub fn states(&self) -> &'static [(&'static str, &'static str)] {
         &STATES[..self.a.nrows()]
     }

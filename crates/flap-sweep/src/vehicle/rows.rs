@@ -28,7 +28,8 @@ const OF_HOVER: usize = 3;
 /// weight.
 pub(crate) const HOVER_RESIDUAL: &str = "hover_residual";
 
-/// Computes the rows of a vehicle at hover, or rows that also contain the damping matrix, or both.
+/// Computes rows of a vehicle: rows at hover, rows with the damping matrix, or rows at hover with the damping
+/// matrix.
 ///
 /// A row begins with the measures of the vehicle. At hover, the row continues with the growth rate and the
 /// period of the fastest-growing mode. The next columns are the largest unbalanced force or torque, and the

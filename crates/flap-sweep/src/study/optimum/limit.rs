@@ -18,8 +18,8 @@ pub(super) struct Limit {
 
 impl Limit {
     /// Returns one limit for each comparison in a condition. Returns `None` if the condition contains `or`,
-    /// `not`, `==` or `!=`. The function `text` returns the text of a comparison from its position in the
-    /// condition.
+    /// `not`, `==` or `!=`. The function `text` must return the part of the condition's text at the given
+    /// positions.
     pub(super) fn of_condition(
         condition: &Expression,
         text: impl Fn(Range<usize>) -> String,

@@ -165,7 +165,8 @@ impl Problem {
         self.aim
     }
 
-    /// Returns the value of this problem's goal at the best design of a different problem with the same plan.
+    /// Returns the value of this problem's goal at the best design of a second problem. Both problems must
+    /// have the same plan.
     pub fn value(&self, best: &Optimum) -> f64 {
         let measures = &best.row.measures;
         let body = self.plan.body();

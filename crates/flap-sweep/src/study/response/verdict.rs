@@ -23,8 +23,8 @@ pub struct Verdict {
     /// Upper limit of the length of steps in which a state component changes by more than a tenth of its
     /// size. flap halves such a step if the step is longer than this limit.
     pub steep_step: f64,
-    /// Largest difference of the peak-to-peak stroke between the branches (deg), among the values at which
-    /// both branches have the same motion.
+    /// Largest difference of the peak-to-peak stroke between the branches (deg), outside of the bands with
+    /// different motions.
     pub difference: f64,
     /// Bands in which the two branches have different motions, or motions that do not repeat every drive
     /// period. The bands are in ascending order of the parameter.
@@ -49,7 +49,7 @@ pub enum BandKind {
     /// The upward and the downward branch have two different motions.
     Bistable {
         /// Largest difference of the peak-to-peak stroke between the two motions (deg). `None` if at every
-        /// value one of the motions does not repeat every drive period.
+        /// value in the band at least one motion does not repeat every drive period.
         jump: Option<f64>,
     },
     /// The motions of both branches do not repeat every drive period.
