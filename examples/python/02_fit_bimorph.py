@@ -2,7 +2,7 @@
 
 The data are a CSV file with the column `frequency_hz` and one or more measures such as `stroke_pp_deg`. If no file is
 given, the script simulates the response of a bimorph with changed parameters, and adds noise. The script then compares
-the fitted parameters with the changed parameters.
+the fitted parameters with the parameters of the simulated bimorph.
 
     python 02_fit_bimorph.py measured.csv --voltage 160
     python 02_fit_bimorph.py

@@ -86,8 +86,8 @@ impl Chunk {
     /// point of the chunk must have the position `next`.
     ///
     /// # Errors
-    /// [`RunError::Chunk`] if the chunk is empty, or its points do not begin at `next`. [`RunError::Chunk`]
-    /// also if plan, build or arithmetic differ from the plan, build and arithmetic of the chunk.
+    /// [`RunError::Chunk`] if the chunk is empty, or its points do not begin at `next`. The error also occurs
+    /// if the chunk was not computed with `plan`, this build and the arithmetic of `options`.
     pub fn outcomes(self, plan: &Plan, options: &RunOptions, next: u64) -> Result<Vec<Outcome>, RunError> {
         let differences = Identity::of(plan, options).differences(&self.identity);
         if !differences.is_empty() {

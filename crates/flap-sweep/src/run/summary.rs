@@ -50,8 +50,8 @@ pub struct Warnings {
     pub negative_power: u64,
     /// Number of rows whose resonance is at the smallest or largest frequency of the search.
     pub at_range_end: u64,
-    /// Number of rows at hover with an unbalanced force above 1 % of the weight. For torques, the limit is 1
-    /// % of the weight times 1 mm.
+    /// Number of rows at hover with an unbalanced force above 1 % of the weight. For unbalanced torques, the
+    /// limit is 1 % of the weight times 1 mm.
     pub unbalanced: u64,
 }
 

@@ -63,8 +63,8 @@ impl Effect {
 /// Returns the effect of each term on the design of `run`. For each effect, only one term is changed.
 ///
 /// If the design does not contain a term, the parameter of the term is set to a typical value. If the design
-/// contains a term, the term is switched off. Derived parameters are computed again after the change, except
-/// the parameters in `fixed`.
+/// contains a term, the term is switched off. After a term is switched on or off, derived parameters are
+/// computed again, except the parameters in `fixed`.
 pub fn effects(plan: &Plan, run: &PointRun<'_>, fixed: &[usize]) -> Vec<Effect> {
     let simulator = plan.robot().model();
     let known = TERMS.iter().filter(|(_, _, models)| models.contains(&simulator.name()));

@@ -261,8 +261,8 @@ impl WrenchMap {
         )
     }
 
-    /// Returns the coefficients for inputs in SI units, instead of inputs that are scaled to the range -1 to
-    /// 1. The order of the coefficients is the same as in [`WrenchMap::scaled`].
+    /// Returns the coefficients for unscaled inputs in SI units. The order of the coefficients is the same as in
+    /// [`WrenchMap::scaled`].
     pub fn physical(&self) -> DMatrix<f64> {
         let terms = terms(self.inputs.len());
         let place = |wanted: &[usize]| terms.iter().position(|term| term == wanted).unwrap_or_default();

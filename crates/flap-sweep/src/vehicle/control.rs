@@ -14,8 +14,8 @@ use nalgebra::DMatrix;
 use crate::derivative::{self, is_least};
 use crate::notation::{UserError, nearest, text};
 
-/// Words that a user can give for drive parameters. Each word is listed with the names of the parameter in
-/// the models.
+/// Words that a user can give for drive parameters. For each word, the list contains the names of the
+/// parameter in the models.
 pub const WORDS: [(&str, &[&str]); 6] = [
     ("amplitude", &["drive_voltage_pp"]),
     ("bias", &["drive_offset", "drive_bias"]),
@@ -113,7 +113,8 @@ impl Input {
         standing(parameters, values, index).is_nan().then_some(parameters[index].name)
     }
 
-    /// Returns the points before and after a small change of the input, from which derivatives are computed.
+    /// Returns two points, from which derivatives are computed: the points before and after a small change of
+    /// the input.
     ///
     /// If the parameter is zero and cannot be negative, the finite difference is one-sided, except at rest.
     /// At rest, mean forces grow with the square of the change, and only a central difference gives the
@@ -410,8 +411,8 @@ pub(crate) fn places(vehicle: &Vehicle) -> [usize; 6] {
     COMPONENTS.map(|name| columns.iter().position(|column| column.name == name).unwrap_or_default())
 }
 
-/// Returns a copy of `values` in which the parameters of all inputs are set. A parameter of one wing that is
-/// not set receives the value for all wings.
+/// Returns a copy of `values` in which the parameters of all inputs are set. If a parameter of one wing is
+/// not set, the parameter receives the value that applies to all wings.
 pub(super) fn own_values(vehicle: &Vehicle, values: &[f64], inputs: &[Input]) -> Vec<f64> {
     let mut filled = values.to_vec();
     for input in inputs {

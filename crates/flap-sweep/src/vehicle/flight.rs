@@ -265,8 +265,8 @@ impl<'a> Coupled<'a> {
         Ok(coupled)
     }
 
-    /// Sets the initial state: `wings` contains the states of the wings, and `body` the velocities, rates and
-    /// angles of the body.
+    /// Sets the initial state: `wings` contains the states of the wings, and `body` contains the velocities,
+    /// rates and angles of the body.
     fn begin(&mut self, wings: &[f64], body: &[f64; FED_BACK]) {
         let [roll, pitch, yaw] = [body[6], body[7], body[8]];
         let attitude = UnitQuaternion::from_euler_angles(roll, pitch, yaw);

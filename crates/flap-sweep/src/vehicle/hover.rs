@@ -307,7 +307,7 @@ impl HoverModel {
     }
 
     /// Computes the linear model at an operating point. `values` contains the vehicle's parameter values, and
-    /// `at` the control effectiveness at this operating point.
+    /// `at` is the control effectiveness at this operating point.
     ///
     /// # Errors
     /// Returns an error if mass properties are missing or impossible, or if a derivative is missing. A
@@ -363,7 +363,7 @@ impl HoverModel {
     }
 
     /// Returns warnings for the user if the linear model may be inaccurate. `frequency` is the drive
-    /// frequency (Hz), and `floquet_max` the largest magnitude of the Floquet multipliers.
+    /// frequency (Hz), and `floquet_max` is the largest magnitude of the Floquet multipliers.
     ///
     /// If `floquet_max` is NaN, flap does not check that the wings settle faster than the body moves.
     pub fn warnings(&self, frequency: f64, floquet_max: f64) -> Vec<String> {
@@ -495,8 +495,8 @@ impl HoverMode {
     /// (longitudinal oscillation)`.
     ///
     /// The name lists motions whose participation is at least a fifth. A mode with a negative real eigenvalue
-    /// is called a subsidence, and with a positive real eigenvalue a divergence. A mode with the eigenvalue
-    /// zero is called neutral.
+    /// is called a subsidence, and a mode with a positive real eigenvalue is called a divergence. A mode with
+    /// the eigenvalue zero is called neutral.
     pub fn name(&self) -> String {
         let share = |states: &[usize]| -> f64 {
             states.iter().filter_map(|&state| self.participation.get(state)).sum()

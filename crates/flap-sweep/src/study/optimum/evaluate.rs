@@ -12,8 +12,7 @@ use crate::derivative::reasons_of;
 use crate::plan::Plan;
 use crate::run::{Outcome, RunError, RunOptions, alone};
 
-/// If a row has no derivative, flap computes a difference between two rows. This value is the distance
-/// between the coordinates of the two rows.
+/// Distance between the coordinates of two rows whose difference replaces a missing derivative.
 const STEP: f64 = 2e-3;
 
 /// For designs at resonance or at hover, this distance replaces [`STEP`]. The distance is larger than

@@ -60,7 +60,7 @@ pub struct Problem {
     /// A copy of `plan` whose rows contain additional measures: the goal and both sides of each limit. The
     /// copy has only those conditions that are not limits of the problem.
     pub(super) measured: Plan,
-    /// A copy of `measured` whose rows also contain derivatives of the additional measures with respect to
+    /// A copy of `measured` whose rows also contain derivatives of the goal and the limits with respect to
     /// the varied parameters. `None` if rows have no derivatives.
     pub(super) sloped: Option<Plan>,
     pub(super) region: Region,

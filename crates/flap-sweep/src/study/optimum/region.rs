@@ -121,8 +121,8 @@ impl Region {
         self.enumerated.iter().map(|&parameter| values[parameter]).collect()
     }
 
-    /// Returns the indices and values of all varied parameters. `coordinates` gives the values of continuous
-    /// parameters, and `choice` the values of the parameters that do not vary continuously.
+    /// Returns the indices and values of all varied parameters. `coordinates` determines the values of
+    /// continuous parameters. `choice` contains the values of the parameters that do not vary continuously.
     pub(super) fn varied(&self, coordinates: &[f64], choice: &[f64]) -> Vec<(usize, f64)> {
         let continuous = self.variables.iter().zip(coordinates);
         let continuous = continuous.map(|(variable, &at)| (variable.parameter, variable.value(at)));

@@ -3,14 +3,14 @@
 //!
 //! Let p be the parameter of the response. A bistable band of p ends where a Floquet multiplier is critical,
 //! for example +1 at a fold. If a second parameter q changes, the ends of the band move along curves in the
-//! plane of p and q. The curves are the edges. Each point of an edge solves these equations:
+//! plane of p and q, which are called edges. Each point of an edge solves these equations:
 //!
 //! ```text
 //! P(x; p, q) − x = 0    P: map of a drive period, x: state at its beginning
 //! test(M) = 0           M = ∂P/∂x: monodromy matrix
 //! ```
 //!
-//! The function test of the monodromy matrix M is zero if a Floquet multiplier is critical (Kuznetsov,
+//! The function test(M) of the monodromy matrix M is zero if a Floquet multiplier is critical (Kuznetsov,
 //! Elements of Applied Bifurcation Theory, section 10.2):
 //!
 //! | kind | multipliers | test(M) |

@@ -146,8 +146,8 @@ impl Interval {
         low < middle && middle < high && high - low > tolerance
     }
 
-    /// Divides the step into two halves. `up` and `down` are the motions of both branches in the middle of
-    /// the step.
+    /// Divides the step into two halves. `up` and `down` are the motions of the upward and the downward
+    /// branch in the middle of the step.
     fn halves(self, up: &Step, down: &Step, sizes: &[f64]) -> [Interval; 2] {
         let same = compare(&up.row, &down.row, sizes) == Comparison::Same;
         let [below, above] = self.same;

@@ -52,7 +52,7 @@ pub enum BandKind {
         /// value in the band at least one motion does not repeat every drive period.
         jump: Option<f64>,
     },
-    /// The motions of both branches do not repeat every drive period.
+    /// Neither the upward nor the downward branch repeats every drive period.
     Irregular {
         /// The different kinds of motion in the band, each with its status and its period (in drive periods).
         what: Vec<(Status, u32)>,
