@@ -37,7 +37,7 @@ pub(crate) fn warn(py: Python<'_>, text: String) -> PyResult<()> {
     PyErr::warn(py, &py.get_type::<PyUserWarning>(), &CString::new(text)?, level)
 }
 
-/// Returns a `GridError` for mistakes in a grid, with its list of diagnostics.
+/// Returns a `GridError` for mistakes in a grid, with the list of diagnostics.
 pub(crate) fn grid(py: Python<'_>, mistakes: &diagnostic::Mistakes) -> PyErr {
     let diagnostics = mistakes.iter().map(Diagnostic::from).collect();
     with_diagnostics(py, diagnostic::render(mistakes, false), diagnostics)

@@ -132,8 +132,8 @@ pub(super) fn largest_stroke_of_large(hypothesis: &str, actuator: &Type, range: 
 }
 
 /// Returns a claim about the drive frequency, within `range`, at which the stroke is largest. The voltage of
-/// the measurement is unknown, so the published frequency is compared with the frequencies between the peaks
-/// at two voltages.
+/// the measurement is unknown, so the published frequency is compared with the range between the peak
+/// frequencies at two voltages.
 fn largest_stroke(hypothesis: &str, actuator: &Type, range: [f64; 2], published: &Published) -> Claim {
     let [low, high] = actuator.voltages.map(|v_0| {
         let (peak, _) = actuator.response(v_0, range).peak("stroke_amplitude_deg");

@@ -362,8 +362,9 @@ impl Plane<'_> {
     /// minimum or maximum of the second parameter. The position of the cusp or turn is computed by the
     /// Illinois variant of regula falsi.
     ///
-    /// At a local minimum or maximum, the tangent's component along the second parameter is zero. At a cusp,
-    /// the tangent's components along both parameters are zero and change their sign.
+    /// At a turn, the second parameter does not change along the edge: the tangent's component along this
+    /// parameter is zero. At a cusp, the tangent's components along both parameters are zero and change their
+    /// sign.
     fn marked(&self, last: &Solution, next: &Solution) -> Option<(Solution, EdgeMark)> {
         let n = self.space.states();
         let parameters = |solution: &Solution| solution.tangent.rows(n, 2).into_owned();
