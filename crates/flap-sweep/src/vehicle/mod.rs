@@ -5,6 +5,7 @@ pub mod control;
 pub mod flight;
 pub mod hover;
 mod hover_slopes;
+pub mod modes;
 mod rows;
 pub mod trim;
 

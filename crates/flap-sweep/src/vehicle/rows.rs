@@ -13,8 +13,9 @@ use flap_core::vehicle::{Vehicle, standing};
 use nalgebra::DMatrix;
 
 use super::control::{COMPONENTS, ControlError, Effectiveness, Input, VehicleRun};
-use super::hover::{HoverError, HoverMode, HoverModel, WRENCH_TO_SI, damping, residual_share, trim};
+use super::hover::{HoverError, HoverModel, WRENCH_TO_SI, damping, residual_share, trim};
 use super::hover_slopes;
+use super::modes::HoverMode;
 use crate::derivative::{Per, column_name, meaning};
 
 /// Units of the derivatives in the damping matrix. The first row contains units for forces, and the second

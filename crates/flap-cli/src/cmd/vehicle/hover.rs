@@ -9,7 +9,8 @@ use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::linear_model::{LinearFormat, LinearModel};
 use flap_sweep::notation::text;
 use flap_sweep::plan::Plan;
-use flap_sweep::vehicle::hover::{self, HoverError, HoverMode, STATES, WRENCH_UNITS, component};
+use flap_sweep::vehicle::hover::{self, HoverError, STATES, WRENCH_UNITS, component};
+use flap_sweep::vehicle::modes::HoverMode;
 use flap_sweep::vehicle::trim::Target;
 use nalgebra::Matrix6;
 
