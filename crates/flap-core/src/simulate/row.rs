@@ -26,8 +26,8 @@ pub struct Row {
     /// the state grows or decays after many orbits.
     ///
     /// The error of the modulus is larger than the errors of the measures, see `docs/models/numerics.md`. The
-    /// modulus is NaN if no orbit was found, or if the wing is at rest and the modulus is not clearly above
-    /// 1. In still air, the drag on a wing at rest has no linear part, so only rounding errors decide if the
+    /// modulus is NaN if no orbit was found, or if the wing is at rest and the modulus does not clearly exceed 1.
+    /// In still air, the drag on a wing at rest has no linear part, so only rounding errors decide if the
     /// modulus is below 1.
     pub floquet_max: f64,
     /// Estimate of the largest relative integration error of the model's [principal
