@@ -35,5 +35,8 @@ def test_without_matplotlib_the_error_says_what_to_install():
     [plot.heatmap, plot.histogram, plot.hysteresis, plot.pareto, plot.response_panels, plot.scatter],
 )
 def test_help_names_the_function_that_explains_slices(function):
-    assert "\n    where, **slices\n        The selection of rows, as for `response`." in function.__doc__
+    assert (
+        "\n    where, **slices\n        Values of columns that select rows, as in `flapwing.plot.response`."
+        in function.__doc__
+    )
     assert "\n    where, **slices\n        Values of columns, which select the rows to draw" in plot.response.__doc__

@@ -82,7 +82,7 @@ def refuse_missing(name: str, values: Any) -> None:
 
 def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
     """If a waveform or a motion is given as the path of a file, return the path. Otherwise return the columns as a
-    dictionary of arrays. The second array of a pair has the name `heading` in the dictionary.
+    dictionary of arrays. If a pair of arrays is given, `heading` is the name of the second array in the dictionary.
     """
     if isinstance(given, (str, os.PathLike)):
         return os.fspath(given)

@@ -57,15 +57,15 @@ class CoefficientFit:
 def fit_coefficients(design: Design, table: Any, /) -> CoefficientFit:
     """Fit the laws of a model for lift, drag and centre of pressure to a table over the attack angle.
 
-    The laws are the same in all models, so you can simulate one design with the coefficients of several papers. The fit
-    is a linear least-squares fit. At the attack angle α, the laws are::
+    All models use the same formulas of lift, drag and centre of pressure, so you can simulate one design with the
+    coefficients of several papers. The fit is a linear least-squares fit. At the attack angle α, the laws are::
 
         C_L = sin 2α (b_L + l_1 cos 2α + l_2 cos² 2α)
         C_D = b_max sin² α + b_min cos² α + sin² 2α (d_0 + d_1 cos 2α)
         centre of pressure = constant + slope α + sin 2α (p_c0 + p_c1 cos 2α)
 
-    The lift of these laws is zero at 0 and 90°, so the fit cannot reproduce a lift at 90° that is not zero. The fitted
-    coefficients b_L, b_max and b_min are never negative.
+    The fitted lift is always zero at attack angles of 0 and 90°. If the table has a lift at 90° that is not zero, the
+    fit cannot reproduce this lift. The fitted coefficients b_L, b_max and b_min are never negative.
 
     Parameters
     ----------

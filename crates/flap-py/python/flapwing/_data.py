@@ -122,8 +122,8 @@ class Data:
         return [name for name in names if not is_text(self.columns[name])]
 
     def usual(self, role: str, option: str, taken: Sequence[str] = ()) -> str:
-        """Return the default measure for a role: "response", "benefit", "cost" or "motion". The command `flap plot`
-        uses the same default measures.
+        """Return the measure that a picture shows by default as "response", "benefit", "cost" or "motion". The command
+        `flap plot` shows the same measures by default.
         """
         found = usual_measure(role, self.measures(), list(taken))
         if found is None:
@@ -212,7 +212,7 @@ class Data:
         return kept
 
     def followed(self) -> str | None:
-        """Return the parameter that a table of `respond` follows: the column after ``branch``."""
+        """Return the parameter that rises and falls in a table of `respond`: the column after ``branch``."""
         names = list(self.columns)
         if "branch" not in names or names[-1] == "branch":
             return None
@@ -227,8 +227,8 @@ class Data:
         return name
 
     def values_along(self, name: str, whole: Data) -> np.ndarray:
-        """Return the distinct values of a parameter. If the parameter has its own axis, its values are taken from the
-        unselected data `whole`.
+        """Return the distinct values of a parameter. If the parameter has its own axis, its values are taken from
+        `whole`, which contains all rows before the selection of rows.
         """
         return distinct((whole if [name] in self.grid_axes else self)[name])
 
@@ -322,8 +322,8 @@ def _is_table(value: Any) -> bool:
 
 
 def joined(runs: Mapping[str, Data]) -> Data:
-    """Return one table with the rows of several results. The first column has the names of the results. All further
-    columns are the columns that occur in every result.
+    """Return one table with the rows of several results. The first column has the names of the results. The table also
+    has all columns that occur in every result.
     """
     first = next(iter(runs.values()))
     names = [name for name in first.columns if all(name in run for run in runs.values())]
@@ -420,8 +420,8 @@ def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
 
 
 def scattered(name: str) -> ValueError:
-    """Return the error for a parameter of a sample. The values of a sampled parameter form no axis, but the picture
-    requires an axis."""
+    """Return the error for a picture that requires an axis, if the given parameter belongs to a sample. The values of a
+    sampled parameter form no axis."""
     return ValueError(f"`{name}` is sampled, so its values form no axis; draw such designs with plot.scatter")
 
 

@@ -33,11 +33,11 @@ def evaluate(
     return_states: bool = False,
     **keywords: Value,
 ) -> Table:
-    """Run a batch of design points, given as columns of parameters.
+    """Run many design points, given as columns of parameters.
 
     Use `evaluate` in optimisers, samplers and fits. You give the parameters of all points as arrays. `evaluate` returns
     the measures of the points as arrays, in the order of the points. The points are computed in parallel, on all cores.
-    The row of a point does not depend on the other points of the batch.
+    The row of a point does not depend on the other points of the same call.
 
     Parameters
     ----------
@@ -54,17 +54,16 @@ def evaluate(
     threads, progress
         The number of threads and the progress report, as for `sweep`.
     client, points_per_task
-        The executor and the number of points in a task, as for `sweep`. With and without `client`, the rows are the
-        same.
+        The executor and the number of points in a task, as for `sweep`. The argument `client` does not change the rows.
     measures : list of str, optional
         The measures that the rows contain. By default, the rows contain the measures that ``[output]`` of the grid
         chooses, or all measures if the grid has no ``[output]``.
     gradient : list of str, optional
         Parameters with respect to which the measures of the settled motion are differentiated. `Table.gradient` has the
         derivatives, with the shape points × measures × parameters. The unit of a derivative is the unit of the
-        measure's column per SI unit of the parameter. The derivatives with respect to `gradient` replace the
-        derivatives of ``[gradient]`` in a grid. The derivatives with respect to one parameter take about as long as
-        three drive periods of the simulation.
+        measure's column per SI unit of the parameter. If you give `gradient`, the table ``[gradient]`` of a grid has no
+        effect. The derivatives with respect to one parameter take about as long as three drive periods of the
+        simulation.
     initial_state : Table, dict or DataFrame, optional
         The state in which each motion begins, at the start of a drive period. The columns of `initial_state` are the
         components of the state (see `states`), with one row per point. Each column's name ends in the unit of the

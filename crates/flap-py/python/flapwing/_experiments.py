@@ -20,7 +20,7 @@ def chirp(
     samples: SupportsIndex | None = None,
     **keywords: Value,
 ) -> Table:
-    """Simulate a chirp from rest: a motion of one design point whose drive frequency changes at a constant rate.
+    """Simulate a chirp of one design point from rest: the drive frequency changes at a constant rate.
 
     Parameters
     ----------
@@ -44,8 +44,9 @@ def chirp(
     Returns
     -------
     Table
-        One row per cycle: `begin_s`, `end_s`, `frequency_hz` (cycles per second), and the measures of the signals. If
-        `samples` is given, the table has the samples of the motion, with the columns of `trajectory`.
+        One row per cycle. The columns are `begin_s`, `end_s`, `frequency_hz` (cycles per second), and measures of the
+        cycle such as `stroke_pp_deg`. If `samples` is given, the table has the samples of the motion, with the columns
+        of `trajectory`.
 
     Raises
     ------
@@ -86,8 +87,8 @@ def impulse(
         The design, and the index of the point in a grid, as for `run`.
     amplitude : float or str, optional
         Size of the impulse (rad, or text with a unit). The size of the impulse is the stroke amplitude that the impulse
-        causes in the first mode alone, without damping. The impulse is not zero, and the magnitude of the impulse is at
-        most half a turn. The default of `amplitude` is ``"20 deg"``.
+        would cause in an undamped motion of only the first mode. The impulse must not be zero, and the magnitude of the
+        impulse is at most 180 degrees. The default of `amplitude` is ``"20 deg"``.
     duration : float or str, optional
         Length of the motion (s, or text with a unit): more than 0. The default of `duration` is ten periods of the
         first mode.
@@ -106,8 +107,8 @@ def impulse(
     Raises
     ------
     ValueError
-        Raised if an argument is invalid (see `run`). Raised if `amplitude` is zero or more than half a turn, or if
-        the duration is zero.
+        Raised if an argument is invalid (see `run`). Raised if `amplitude` is zero or more than 180 degrees, or if the
+        duration is zero.
     TypeError
         Raised if an argument has the wrong type.
 
@@ -159,7 +160,7 @@ def forces_along(
     -------
     Table
         ``samples + 1`` rows: `time_s`, stroke and pitch, lift and drag, and the parts of lift and drag. The table has
-        no columns of the actuator, because the given motion does not determine the actuator.
+        no columns of the actuator, because the given motion does not determine the voltage of the actuator.
 
     Raises
     ------
@@ -202,7 +203,7 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
         The tracked points of every image: a CSV file, or columns (a dictionary, Table or DataFrame). The columns of
         `points` are `root_x`, `root_y`, `tip_x` and `tip_y`, which are the coordinates of two points of the leading
         edge. The column of the time is `time_s` (or `time_ms`). For the pitch, `points` also requires the columns
-        `edge_x` and `edge_y`, which are the coordinates of a point on the lower edge.
+        `edge_x` and `edge_y`, which are the coordinates of a point on the lower edge of the wing.
     chord : float, optional
         Length of the chord from the leading edge to the point on the lower edge: more than 0. The unit of `chord` is
         the unit of the coordinates. The table has the column `pitch_deg` only if `chord` is given.

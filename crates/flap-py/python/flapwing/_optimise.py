@@ -29,8 +29,8 @@ def optimise(
 
     The search first computes the points of the grid. In a second stage, the search improves the best points step by
     step, with the derivatives of the measures. The search can choose any value between the smallest and the largest
-    value of an axis. Options, whole numbers, and parameters that change together can have only the values of the grid.
-    Every motion begins at rest, as in a sweep.
+    value of an axis. Options, whole numbers, and parameters that change together can have only values that the grid
+    lists. Every motion begins at rest, as in a sweep.
 
     Parameters
     ----------
@@ -54,8 +54,8 @@ def optimise(
         change the result.
     progress : bool or function, optional
         If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
-        numbers: the number of finished points and starts, and the number of all points and starts. With `client`, the
-        progress advances only once, at the end of the whole search.
+        numbers: the number of finished points and searches, and the number of all points and searches. With `client`,
+        the progress advances only once, at the end of the whole search.
     client : executor, optional
         An executor, such as a process pool (see `sweep`). The search runs on one of the workers of the executor.
     **keywords : float or str

@@ -45,8 +45,8 @@ def run(
     Parameters
     ----------
     design : str, path, dict or Grid
-        The name of a preset (see `presets`); a grid (see `Grid`) as a path, text, dictionary or Grid; or a model. For a
-        model, give all parameters of the model.
+        The name of a preset (see `presets`), a grid (see `Grid`) as a path, text, dictionary or Grid, or the name of a
+        model. For a model, give all parameters of the model.
     point : int, optional
         The index of a point in the grid, counted from 0. If the grid has more than one point, `point` is required.
     initial_state : dict, Table or DataFrame, optional
@@ -69,8 +69,8 @@ def run(
         If True, a progress bar is shown, as for `sweep`. The progress bar advances only once, at the end of the
         computation.
     client : executor, optional
-        An executor, such as a process pool (see `sweep`). The point runs on one of the workers of the executor. With
-        and without `client`, the result is the same.
+        An executor, such as a process pool (see `sweep`). The point runs on one of the workers of the executor. The
+        argument `client` does not change the result.
     rtol : float, optional
         Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1. The default of `rtol`
         is 1e-6.
@@ -80,8 +80,8 @@ def run(
     settle_tol : float, optional
         A motion has settled when the state changes by less than `settle_tol` from one drive period to the next. The
         change of a state is divided by the typical size of the state. If the motion is smaller than the typical size,
-        the size of the motion is the divisor. `settle_tol` is more than 0. The default of `settle_tol` is
-        1e-6.
+        the change of the state is divided by the size of the motion. `settle_tol` is more than 0. The default of
+        `settle_tol` is 1e-6.
     max_cycles : int, optional
         Largest allowed number of drive periods until the motion settles: 1 or more. A motion that needs more periods
         has the status ``"unsettled"``. The default of `max_cycles` is 1000 drive periods.
@@ -93,12 +93,12 @@ def run(
         1e-3 and 1000 `rtol`.
     newton : bool, optional
         If True, Newton's iteration finds the orbit that the motion approaches. If False, the motion is integrated until
-        the motion settles. Newton's iteration takes fewer drive periods, and finds the orbit on which the motion
-        settles. The default of `newton` is True.
+        the motion settles. Newton's iteration needs fewer drive periods than an integration until the motion settles,
+        and finds the orbit on which the motion would settle. The default of `newton` is True.
     progressive : bool, optional
-        If True, the search for the orbit begins at looser tolerances and ends at `rtol`. If False, the whole search
-        uses the tolerance `rtol`, which takes about twice the work. The orbit does not depend on `progressive`. The
-        default of `progressive` is True.
+        If True, the search for the orbit begins with tolerances that are larger than `rtol`, and ends with the
+        tolerance `rtol`. If False, the whole search uses the tolerance `rtol`, and takes about twice as long as with
+        True. The orbit does not depend on `progressive`. The default of `progressive` is True.
     symmetry : bool, optional
         If True, and if the second half of an orbit mirrors the first half, only half of each period is integrated. If
         False, whole periods are always integrated. The orbit does not depend on `symmetry`. The default of `symmetry`
@@ -180,9 +180,9 @@ def trajectory(
     waveform, stroke : path, tuple or columns, optional
         A waveform of the drive or a prescribed stroke (see `run`).
     once : bool, optional
-        If True, the motion contains the waveform or the prescribed stroke only once, and begins at rest or in
-        `initial_state`. The first and the last value of the waveform or the stroke may differ, and `cycles` has no
-        effect.
+        If True, the waveform or the prescribed stroke is not repeated, and the motion begins at rest or in
+        `initial_state`. If `once` is True, the first and the last value of the waveform or the stroke may differ, and
+        `cycles` has no effect.
     progress, client
         The progress report and the executor, as for `run`.
     **keywords : float or str
@@ -192,8 +192,8 @@ def trajectory(
     -------
     Table
         ``cycles * samples + 1`` rows with the columns of ``flap run --trajectory``: first `time_s` (s), then the states
-        and signals of the model. Each name ends in the unit of the column. The attribute `docs` has the meanings of the
-        columns, and `meta` has the origin of the motion.
+        of the model, and quantities such as the lift over time. Each name ends in the unit of the column. The attribute
+        `docs` has the meanings of the columns, and `meta` has the origin of the motion.
 
     Raises
     ------
@@ -258,8 +258,8 @@ def resonance(
         0.05 Hz.
     impulse : float or str, optional
         Size of the impulse (rad, or text with a unit). The size of the impulse is the stroke amplitude that the impulse
-        causes in the first mode alone, without damping. The impulse is not zero, and the magnitude of the impulse is at
-        most half a turn. The default of `impulse` is ``"20 deg"``.
+        would cause in an undamped motion of only the first mode. The impulse must not be zero, and the magnitude of the
+        impulse is at most 180 degrees. The default of `impulse` is ``"20 deg"``.
     fit_cycles : int, optional
         Length of the free motion to which a damped sine is fitted, in periods of the first mode. The default of
         `fit_cycles` is 4 periods.

@@ -31,22 +31,23 @@ def respond(
 
     The first point of each branch (rising or falling parameter) starts at rest. Each later point starts from the
     settled motion of the previous point. If the motions of the rising and of the falling branch differ, the design is
-    bistable. A step of the parameter is halved if a bistable band ends within the step. A step in which the motion
-    changes by more than a tenth is also halved, because the step could contain a narrow bistable band.
+    bistable. A step of the parameter is halved if a bistable band ends within the step. A step is also halved if a
+    component of the state changes by more than a tenth of the largest value of the component. A steep step could
+    contain a narrow bistable band.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        A preset or a grid (see `Grid`). The grid can have an axis for the followed parameter, which is the argument `parameter`. Each combination of the
-        values of all other axes is one design with one curve.
+        A preset or a grid (see `Grid`). The grid can have an axis for the parameter that rises and falls. Each
+        combination of the values of all other axes is one design with one curve.
     parameter : str, optional
         The parameter that rises and falls. The default of `parameter` is ``"drive_frequency"``.
     start, stop, step : float or str, optional
-        First value, last value and step of the followed parameter: numbers in SI units, or text with units. By default,
-        `start`, `stop` and `step` are taken from the axis of this parameter in the grid.
+        First value, last value and step of the parameter that rises and falls: numbers in SI units, or text with units.
+        By default, `start`, `stop` and `step` are taken from the axis of `parameter` in the grid.
     tolerance : float or str, optional
-        Longest allowed step of the followed parameter at the ends of bistable bands and where the response is steep.
-        The default of `tolerance` is a sixteenth of the shortest step.
+        Longest allowed step of the parameter that rises and falls, at the ends of bistable bands and where the response
+        is steep. The default of `tolerance` is a sixteenth of the shortest step.
     unstable : bool, optional
         If True, the branches are continued around the ends of bistable bands, and the table also has the unstable
         orbits between the branches.
@@ -57,8 +58,8 @@ def respond(
         The number of threads and the progress report, as for `sweep`. A progress function is called with two numbers:
         the number of finished designs, and the number of all designs.
     client : executor, optional
-        An executor, such as a process pool (see `sweep`). Each task of the workers follows one design. With and without
-        `client`, the rows are the same.
+        An executor, such as a process pool (see `sweep`). Each task of the workers computes the response of one design.
+        The argument `client` does not change the rows.
     **keywords : float or str
         Parameters of all designs and solver settings, as for `run`.
 
@@ -66,17 +67,17 @@ def respond(
     -------
     Table
         One row per motion. The columns of the table are `curve` (number of the design), the parameters of the design,
-        `branch` (``"up"``, ``"down"`` or ``"unstable"``), the followed parameter, and `status`. The column `bistable`
-        (true if the rising and the falling branch have different motions) and the measures come after `status`.
-        `Table.verdicts` has the verdict on each design, and ``meta["parameter"]`` is the name of the followed
-        parameter.
+        `branch` (``"up"``, ``"down"`` or ``"unstable"``), the parameter that rises and falls, and `status`. The column
+        `bistable` (true if the rising and the falling branch have different motions) and the measures come after
+        `status`. `Table.verdicts` has the verdict on each design, and ``meta["parameter"]`` is the name of the
+        parameter that rises and falls.
 
     Raises
     ------
     ValueError
         Raised if a preset, parameter, option or unit is unknown. Raised if the range from `start` to `stop` has no
-        steps. Raised if the followed parameter is a choice, or varies together with a second parameter. A grid with
-        mistakes raises GridError.
+        steps. Raised if `parameter` is a choice, or varies together with a second parameter. A grid with mistakes
+        raises GridError.
     TypeError
         Raised if an argument has the wrong type.
 
@@ -133,9 +134,9 @@ def edges(
 ) -> Table:
     """Follow the ends of bistable bands in the plane of two parameters.
 
-    The response of each design along the first parameter is followed as by `respond`. Each end of a bistable band in
-    the response is continued through the plane of the parameters `first` and `second`. A cusp is a point at which
-    hysteresis begins.
+    For each design, flap first computes the response to the parameter `first`, in the same way as `respond`. Each end
+    of a bistable band in the response is continued through the plane of the parameters `first` and `second`. A cusp is
+    a point at which hysteresis begins.
 
     Parameters
     ----------
@@ -149,8 +150,9 @@ def edges(
     edge_start, edge_stop : float or str
         Smallest and largest value of the second parameter: numbers in SI units, or text with units.
     edge_step : float or str, optional
-        Step of the second parameter. With `edge_step`, the table has only cusps, turns, ends of edges, and points at
-        multiples of the step, counted from `edge_start`. Without `edge_step`, the table has all computed points.
+        Step of the second parameter. With `edge_step`, the table has only points with a mark, the ends of edges, and
+        points at multiples of the step, counted from `edge_start`. Without `edge_step`, the table has all computed
+        points.
     start, stop, step : float or str, optional
         First value, last value and step of the first parameter, as for `respond`. By default, `start`, `stop` and
         `step` are taken from the axis of the first parameter in the grid.
@@ -167,9 +169,10 @@ def edges(
     Table
         One row per point, in order along the edge. The first columns of the table are the parameters of the design,
         `edge` (number of the edge), and `kind` (``"fold"``, ``"period_doubling"`` or ``"torus"``). The last columns of
-        the table are `mark` (``"cusp"``, ``"turn"`` or empty), the two followed parameters, `floquet_max`, and the
-        measures. ``meta["edges"]`` has a summary of each edge in one line. A design without hysteresis has no rows. A
-        warning names each end of a band at which no edge was found.
+        the table are `mark`, the two parameters of the plane, `floquet_max`, and the measures. The column `mark` has
+        ``"cusp"`` at a cusp, and ``"turn"`` at a local minimum or maximum of the second parameter. ``meta["edges"]``
+        has a summary of each edge in one line. A design without hysteresis has no rows. A warning names each end of a
+        bistable band at which no edge was found.
 
     Raises
     ------

@@ -47,7 +47,8 @@ class Row(Mapping[str, Any]):
         measure that is a condition has the type bool. If the status is not ``"periodic"``, all measures are nan. A
         ratio of zero to zero, such as the efficiency at zero power, is nan.
     cycles : int
-        Number of drive periods that were integrated, including the periods of the measurement.
+        Number of drive periods that were integrated, including the periods from which the measures and the error
+        estimate are computed.
     residual : float
         Change of the state over the last period of the motion, relative to the typical size of each state. `residual`
         is nan if no period was completed.
@@ -131,9 +132,9 @@ class Parameter(_Result):
         Name of the parameter in grids, on the command line and as a keyword.
     value : float or str
         Value of the parameter in the design, in SI units, or the name of the chosen option. For a grid, `value` is the
-        value at the first point. `value` is nan if a search computes the value for each point, such as the resonance.
-        `value` is also nan if the parameter is not set, so that the model computes the value. For a model without a
-        design, the values of all parameters are nan.
+        value at the first point. If a search computes the value for each point, for example the drive frequency of a
+        resonance, `value` is nan. `value` is also nan if the parameter is not set, so that the model computes the
+        value. For a model without a design, the values of all parameters are nan.
     unit : str
         SI unit of the parameter, or ``""`` for pure numbers and options.
     symbol : str
@@ -366,8 +367,9 @@ class Optimum(_Result):
     status : str
         `status` is ``"optimal"`` if the derivatives confirm that no small change improves the design. If a derivative
         is missing, `optimise` estimates the derivative from the difference between computed rows. `status` is
-        ``"approximate"`` if the derivatives do not confirm the design. `status` is ``"infeasible"`` if no design
-        satisfies all conditions. An infeasible design is the design with the smallest violation of the conditions.
+        ``"approximate"`` if the derivatives do not confirm that the design is optimal. `status` is ``"infeasible"`` if
+        no design satisfies all conditions. If `status` is ``"infeasible"``, the result contains the design with the
+        smallest violation of the conditions.
     goal : str
         The expression that was maximised or minimised.
     value : float

@@ -36,11 +36,11 @@ def sweep(
         the grid chooses the columns, but the entry `path` of ``[output]`` is not used.
     out : path, optional
         File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. The sweep writes each row to the file as soon as
-        possible. The command ``flap sweep --out`` writes a file with the same bytes. The sidecar, which is a file in
-        the folder of `out`, records the origin of the rows. If `out` has unfinished results of the grid, the sweep
-        continues after the last row. If `out` already has all rows, no point is computed. If `out` has anything except
-        results of the grid, the sweep raises an error. By default, rows are kept in memory, with about half a kilobyte
-        for each row.
+        possible. For the same grid, the command ``flap sweep --out`` writes a file with the same bytes as the function
+        `sweep`. The sidecar, which is a file in the folder of `out`, records the origin of the rows. If `out` has
+        unfinished results of the grid, the sweep continues after the last row. If `out` already has all rows, no point
+        is computed. If `out` has anything except results of the grid, the sweep raises an error. By default, rows are
+        kept in memory, with about half a kilobyte for each row.
     restart : bool, optional
         If True, the sweep computes all rows again, and replaces the results in `out` when the new results are complete.
     threads : int, optional
@@ -53,11 +53,12 @@ def sweep(
     client : executor, optional
         Run the points on the workers of an executor: any object whose ``submit(function, *arguments)`` returns a future
         with the method `result`. For example, `client` can be an executor of `concurrent.futures`, submitit or mpi4py,
-        or the client of a Dask cluster. The workers must have the same build of flapwing. With and without `client`,
-        the rows have the same order and the same bytes. If a worker of a Dask cluster dies, other workers run the
-        points of the lost worker again. If the executor is not a Dask cluster, a lost worker raises an error. A worker
-        whose processor rounds numbers differently also raises an error, because the last bits of the rows could differ.
-        The points of ``[refine]`` run in the process that calls `sweep`.
+        or the client of a Dask cluster. The workers must have the same build of flapwing. The argument `client` changes
+        neither the order nor the bytes of the rows. If a worker of a Dask cluster dies, other workers run the points of
+        the lost worker again. If the executor is not a Dask cluster, a lost worker raises an error. A worker whose
+        processor rounds numbers differently from this machine's processor also raises an error, because the last bits
+        of the rows could differ. The points that ``[refine]`` adds to a grid are computed in the process that calls
+        `sweep`.
     points_per_task : int, optional
         Number of points in a task of `client`, 1 or more. The default of `points_per_task` is at most 2,048 points for
         each thread of a task. A task of the default size takes a few seconds. If each task is a job of a queue, set a
@@ -72,12 +73,12 @@ def sweep(
     Returns
     -------
     Table
-        One row per point in the order of the grid, without points that ``[where]`` excludes. Columns: `point`, the
-        varied and derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`,
-        `floquet_max`, `stable`, `error_estimate`, `rhs_evals`. The entry ``columns`` of ``[output]`` chooses among the
-        columns after `status`. A point without a periodic motion has a row with a status and without measures. If `out`
-        is given, the table reads the file when a column is used for the first time. If another sweep replaces the rows
-        in the file before the table has read the file, ValueError is raised.
+        One row per point in the order of the grid, without points that ``[where]`` excludes. The columns are `point`,
+        the varied and derived parameters in SI units, `status`, the measures, `cycles`, `residual`, `period`,
+        `floquet_max`, `stable`, `error_estimate`, and `rhs_evals`. The entry ``columns`` of ``[output]`` chooses among
+        the columns after `status`. A point without a periodic motion has a row with a status and without measures. If
+        `out` is given, the table reads the file when a column is used for the first time. If another sweep replaces the
+        rows in the file before the table has read the file, ValueError is raised.
 
     Raises
     ------

@@ -70,7 +70,7 @@ class Table:
         `solver`, `arithmetic` and `grid` (the text of the grid file). Further entries are `counts` (number of rows by
         status), `excluded` (number of points without a row) and `invalid` (the first few invalid points, with reasons).
         `keywords` has the keywords of the call, which replace values of the grid. If you select some of the rows or
-        columns, the new table has the same entries, except new values of `rows` and `counts`.
+        columns, the new table has the entries of the original table, except new values of `rows` and `counts`.
     """
 
     axes: list[dict[str, np.ndarray[Any, Any]]]
@@ -255,7 +255,7 @@ class Table:
         return _columns.to_pandas(self._columns, self.meta)
 
     def to_polars(self) -> polars.DataFrame:
-        """Return the table as a polars DataFrame, through Arrow; unknown values are null."""
+        """Return the table as a polars DataFrame, which is converted through Arrow and has null for unknown values."""
         import polars
 
         frame = polars.from_arrow(self.to_arrow())
@@ -283,11 +283,11 @@ class Table:
         axis, the Dataset contains the second and later parameters as coordinates along the dimension of the axis. A
         table with a motion over time has the dimension ``time_s``. A table with neither axes nor times has the
         dimension ``row``. For a response, the coordinates along ``row`` are `curve`, the design's parameters, `branch`,
-        and the followed parameter. Columns are variables with the attributes `units`, `long_name` and `description`.
-        Points that the grid excludes have no row. The cells of an excluded point are nan, 0 or empty text, and columns
-        of flags become float64. The column `point`, or the parameters of the axes, determine the cell of each row. If a
-        table has neither `point` nor the parameters of the axes, ValueError is raised. The attributes of the Dataset
-        are the entries of `meta`, as JSON if an entry is not text.
+        and the parameter that rises and falls. Columns are variables with the attributes `units`, `long_name` and
+        `description`. Points that the grid excludes have no row. The cells of an excluded point are nan, 0 or empty
+        text, and columns of flags become float64. The column `point`, or the parameters of the axes, determines the
+        cell of each row. If a table has neither `point` nor the parameters of the axes, ValueError is raised. The
+        attributes of the Dataset are the entries of `meta`, as JSON if an entry is not text.
         """
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 

@@ -1,4 +1,4 @@
-"""Calls, sweeps, batches and responses on the workers of an executor, such as a process pool or a Dask cluster."""
+"""Functions that run simulations on the workers of an executor, such as a process pool or a Dask cluster."""
 
 from __future__ import annotations
 
@@ -115,7 +115,7 @@ class Chunks:
             self._results.close()
 
     def next(self, done: int) -> bytes | None:
-        """Return the next chunk of rows. The first chunk begins after the first `done` points, which are already
+        """Return the rows of the next task. The first task begins after the first `done` points, which are already
         computed."""
         if self._results is None:
             begins = range(done, self._points, self._size)
@@ -127,7 +127,7 @@ class Chunks:
 def grid_chunks(
     grid: Grid, client: Executor, threads: SupportsIndex | None, points_per_task: SupportsIndex | None
 ) -> Chunks:
-    """Return the rows of all points of a grid, in chunks that workers compute."""
+    """Return an object that supplies the rows of a grid, which workers compute."""
     # Workers resolve the files of the grid to the same absolute paths as this process.
     name, text = os.path.abspath(grid.name), grid.text
     threads = 1 if threads is None else threads
@@ -152,8 +152,8 @@ def batch_chunks(
     threads: SupportsIndex | None,
     points_per_task: SupportsIndex | None,
 ) -> Chunks:
-    """Return the rows of a batch in chunks that workers compute. Each task contains all points of some rows of
-    `columns`."""
+    """Return an object that supplies the rows of the points in `columns`, which workers compute. Each task contains all
+    points of some rows of `columns`."""
     rows = len(next(iter(columns.values())))
     per_row = max(1, len(batch) // max(1, rows))
     design, states = _portable(design), options["initial_state"]
@@ -171,8 +171,8 @@ def batch_chunks(
 def _batch_task(
     design: Any, options: dict[str, Any], columns: dict[str, Any], first: int, threads: SupportsIndex
 ) -> bytes:
-    """Compute a range of the points of a batch in a worker, and return the rows as bytes. The points are given as
-    columns of parameters, and `first` is the index of the first point in the whole batch.
+    """Compute some of the points of `evaluate` in a worker, and return the rows as bytes. The points are given as
+    columns of parameters, and `first` is the index of the first point among all points of the call.
     """
     batch = _flapwing.batch(design, _aligned(columns), **_aligned(options))
     return _flapwing.part(batch, 0, len(batch), first=first, threads=threads)
@@ -194,8 +194,8 @@ def _columns(parts: list[dict[str, Any]]) -> dict[str, Column]:
 
 
 def _column(parts: list[Column]) -> Column:
-    """Return the cells that a column has in all responses as one column. The responses can have different lists of
-    words for a column of text."""
+    """Join the cells of a column in all responses to one column. The responses can have different lists of words for a
+    column of text."""
     cells = [one.cells for one in parts]
     if parts[0].words is None:
         return parts[0]._replace(cells=np.concatenate(cells))
@@ -209,7 +209,7 @@ def _column(parts: list[Column]) -> Column:
 def _respond_task(
     design: Any, parameter: str, options: dict[str, Any], curve: int, threads: SupportsIndex | None
 ) -> dict[str, Any]:
-    """Follow the response of one design in a worker, and return the curve."""
+    """Compute the response of one design in a worker, and return the curve."""
     return _flapwing.respond(design, parameter, threads=threads, curves=[curve], **options)
 
 

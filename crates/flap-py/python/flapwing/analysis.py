@@ -166,7 +166,7 @@ def sensitivities(
 def _ranges(
     known: Mapping[str, Parameter], parameters: Any, change: float, fixed: Mapping[str, Any]
 ) -> dict[str, float | tuple[float, float]]:
-    """Return a mapping from each parameter that is changed to its relative change, or to its lower and upper value."""
+    """Return the relative change, or the lower and the upper value, of each parameter that is changed."""
     if parameters is None:
         chosen: dict[str, Any] = {
             name: change

@@ -53,11 +53,11 @@ class ComparedFit:
         held-out readings that have a settled motion in all compared fits. `held_out_rms` is empty if no held-out
         reading has a settled motion in all compared fits.
     held_out_score : float
-        Mean logarithm of the probability density that the fit predicts for a held-out reading, over the readings of
-        `held_out_rms`. A higher `held_out_score` is better. The width of the probability density accounts for the
-        standard errors of the parameters, the discrepancy of the model, and the noise of the reading. `held_out_score`
-        is nan if `held_out_rms` is empty. `held_out_score` is also nan if the standard error of a prediction is
-        unknown, for example because the fitted readings do not determine a parameter.
+        Mean of the logarithm of the predicted probability density at each held-out reading that `held_out_rms` uses. A
+        higher `held_out_score` is better. The width of the probability density accounts for the standard errors of the
+        parameters, the discrepancy of the model, and the noise of the reading. `held_out_score` is nan if
+        `held_out_rms` is empty. `held_out_score` is also nan if the standard error of a prediction is unknown, for
+        example because the fitted readings do not determine a parameter.
     """
 
     name: str

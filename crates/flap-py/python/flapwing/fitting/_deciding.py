@@ -80,8 +80,8 @@ class DecidingMeasurements:
         in `errors` accounts for the noise of a reading and the standard errors of the parameters.
     expected : list of float
         The expected difference between the chi-squares of the two fits, if the model of one of the two fits is correct.
-        The entry of a point is the expected difference after all readings up to this point in the list. The computation
-        updates both fits after each reading.
+        The entry of a point is the expected difference after the readings at this point and at all earlier points in
+        the list. The computation updates both fits after each reading.
     """
 
     names: tuple[str, str]
@@ -186,8 +186,8 @@ def _decide(
     squared difference of the two predictions, divided by the sum of two variances. The two variances are the variance
     of the reading and the variance of the second fit's prediction. The variance of the prediction reduces the rise of
     chi-square, because a new fit that includes the reading moves its prediction towards the reading. The rise of
-    chi-square is computed twice: for a correct model of the first fit, and for a correct model of the second fit. The
-    expected difference of chi-square is the mean of the rises for a correct first model and for a correct second model.
+    chi-square is computed twice: assuming that the first fit is correct, and assuming that the second fit is correct.
+    The expected difference of chi-square is the mean of the two computed rises of chi-square.
     """
     covariances = [finite_covariance(fit._information) for fit in fits]
     differences = [values[1] - values[0], values[0] - values[1]]

@@ -24,9 +24,7 @@ _FITTED = re.compile(r"(; |^)fitted to \d+ readings, .*", re.DOTALL)
 
 
 def write(fit: Solution, path: str | os.PathLike[str], data_set: str | None, overwrite: bool) -> None:
-    """Write the device that a fit describes to a file. Raise FileExistsError if the file exists and `overwrite` is
-    False.
-    """
+    """Write the result of a fit to a device file. Raise FileExistsError if `path` exists and `overwrite` is False."""
     text = text_of(fit, data_set)
     try:
         with open(path, "w" if overwrite else "x", encoding="utf-8") as file:

@@ -49,7 +49,8 @@ class Discrepancy:
 
 @dataclass(frozen=True)
 class Discrepancies:
-    """The discrepancies of all measures, and the covariance of the search coordinates with these discrepancies."""
+    """The discrepancies of all measures, and the covariance of the search coordinates that accounts for the
+    discrepancies."""
 
     listed: list[Discrepancy]
     #: The discrepancy of each measure, as a `Noise` object with the standard deviation of the discrepancy.
@@ -80,8 +81,8 @@ def of_residuals(
     points falls with the distance between the points. Along each parameter, the distance of two points is the
     difference between the ranks of their values. The products of the residuals of neighbouring points determine how
     fast the correlation ρ falls with the distance. The fitted parameters absorb a part of the noise and of the
-    discrepancy, so the residuals are smaller. The estimate of the discrepancy corrects for the absorbed part, as in a
-    restricted maximum likelihood.
+    discrepancy, so the residuals are smaller than the sum of noise and discrepancy. The estimate of the discrepancy
+    corrects for the absorbed part, as in a restricted maximum likelihood.
 
     `measures` contains the indices of the fitted readings of each measure, and `structured` contains the measures whose
     residuals have a pattern. Standard errors of the kind ``"unknown"`` are estimated from the residuals, so they
@@ -134,8 +135,9 @@ def of_residuals(
 
 
 def _likeness(layout: Layout, chosen: Places, scaled: Array, shape: Array) -> dict[str, float]:
-    """Return the squared discrepancy that the products of neighbouring residuals along each parameter indicate. The sum
-    of the products of residuals is divided by the sum of the products of the neighbouring values in `shape`.
+    """Return an estimate of the squared discrepancy for each parameter, from the products of residuals that are
+    neighbours along the parameter. The sum of the products of residuals is divided by the sum of the products of the
+    neighbouring values in `shape`.
     """
     whole = np.zeros(len(scaled))
     whole[chosen] = shape
@@ -151,7 +153,7 @@ def _correlated(
     layout: Layout, chosen: Places, declines: Mapping[str, float], shape: Array, slopes: Array
 ) -> tuple[Array, float]:
     """Return the matrix ``slopes.T @ C @ slopes``, and the sum of all elements of C. The matrix C is the correlation
-    matrix of the discrepancies, whose rows and columns are multiplied by `shape`.
+    matrix of the discrepancies after the multiplication of its rows and its columns by `shape`.
     """
     weighted = shape[:, np.newaxis] * slopes
     ranks = {name: layout.ranks[name][chosen] for name in layout.varied}

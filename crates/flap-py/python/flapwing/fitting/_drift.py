@@ -14,8 +14,8 @@ _SIGNIFICANT = 1e-3
 
 
 def between_sets(space: Space, of_set: Places, scaled: Array, jacobian: Array) -> str:
-    """Return the name of the parameter with one value for all data sets that best explains a disagreement between the
-    data sets. Return an empty text if the data sets agree.
+    """Return the name of the parameter that best explains a disagreement between the data sets. Return an empty text if
+    the data sets agree. Parameters that already have a separate value for each data set are not tested.
 
     A parameter explains the disagreement if a separate value for each data set significantly reduces the sum of squares
     of the residuals (F test). The test approximates the residuals by linear functions of the parameters, with the

@@ -85,7 +85,7 @@ def fit(
         change the results.
     progress : bool or function, optional
         If True, `fit` shows the number of computed points. If `progress` is a function, `fit` calls the function with
-        two arguments. Both arguments are the number of computed points.
+        two arguments, and each argument is the number of computed points.
     **keywords : float or str
         Parameters that have the same value in all data sets, and solver settings. If a data set has a column of a
         parameter, the column replaces the keyword argument for this data set.

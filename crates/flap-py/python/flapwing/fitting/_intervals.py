@@ -143,7 +143,7 @@ class _ProfileSearch:
 
     def _minimum(self, ask: Ask, begin: Array, fixed: int) -> tuple[Found, float]:
         """Return the minimum of the cost near `begin` at a fixed value of one coordinate, and the height of the profile
-        there.
+        at this value.
         """
         # The cost must be known to a fraction of its rise.
         tolerance = tolerance_of(0.02, self.found.cost)
@@ -197,8 +197,8 @@ _SHARE = 0.05
 
 
 def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> list[str]:
-    """Return a sentence for each combination of changes of parameters that changes no reading, whatever the values of
-    the parameters are. `at_estimate` contains the derivatives of the residuals at the estimate.
+    """Return a sentence for each combined change of parameters that changes no reading, for all values of the
+    parameters. `at_estimate` contains the derivatives of the residuals at the estimate.
 
     The derivatives of the readings are computed at several random sets of parameters. If the derivatives have a null
     space at each set, the measured quantities at the operating points of the data cannot determine all parameters. If
@@ -304,9 +304,7 @@ def combinations(space: Space, jacobian: Array) -> list[str]:
 
 
 def _size(one: Coordinate, change: float) -> str:
-    """Return a text for a change of a parameter whose coordinate changes by `change`: per cent, or a number with the
-    unit.
-    """
+    """Return the change of a parameter as text, in per cent or with the unit, if its coordinate changes by `change`."""
     if not one.log:
         return f"{change * one.width:.2g} {one.unit}".rstrip()
     return f"{100 * change:.2g} %" if change < 1 else f"{100 * change:.0f} %"

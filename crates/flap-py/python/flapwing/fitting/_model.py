@@ -169,7 +169,7 @@ class Model:
         return self.answers(self.points, self.outputs, self.branches, [x], rtol=FINE)[0]
 
     def _whole(self, answer: Answer) -> Answer:
-        """Return an answer with an entry for every reading. Readings that are not in `answer` get nan and the status
+        """Return the predictions of all readings. Readings without a prediction in `answer` get nan and the status
         ``"held out"``.
         """
         count, places = len(self.outputs.row), self.part.places

@@ -97,14 +97,14 @@ class Names:
         return self.parameters[name] if name in self.parameters else self.measures[name]
 
     def meaning(self, place: str, header: str) -> Meaning:
-        """Return the content of a column of readings. Raise ValueError if the header is neither a parameter nor a
-        measure.
+        """Return the content of a column of readings: a parameter, a measure, or standard errors of a measure. Raise
+        ValueError if the header is neither a parameter nor a measure.
         """
         return self.meanings(place, [header])[0]
 
     def meanings(self, place: str, headers: Sequence[str]) -> list[Meaning]:
-        """Return the content of each column of readings. Raise ValueError if a header is neither a parameter nor a
-        measure.
+        """Return the content of each column of readings: a parameter, a measure, or standard errors of a measure. Raise
+        ValueError if a header is neither a parameter nor a measure.
         """
         found = [self._meaning(place, header) for header in headers]
         unknown = [header for header, one in zip(headers, found) if one is None]

@@ -34,8 +34,8 @@ class NextMeasurements:
     measures : list of str
         The measure of the new reading at each point.
     errors : list of float
-        The standard errors of the target. The entry of a point is the standard error after all readings up to this
-        point in the list.
+        The standard errors of the target. The entry of a point is the standard error after the readings at this point
+        and at all earlier points in the list.
     """
 
     target: str

@@ -106,7 +106,7 @@ def answers_at(
 
 def _with_data(model: Model, points: Mapping[str, Any], place: int, along: str) -> dict[str, Any]:
     """Return columns that contain operating points of a data set, followed by the given points. The data set
-    contributes the points that differ from a given point at most in the parameter `along`.
+    contributes the points that differ from a given point in no parameter except `along`.
     """
     others = [name for name in points if name != along]
     wanted = {tuple(points[name][row] for name in others) for row in range(len(points[along]))}

@@ -118,8 +118,8 @@ class Fit(Solution):
         points : dict, DataFrame or Grid
             Columns of parameters, as in `Readings`. You can leave out parameters that have the same value in all data
             sets. A grid in `points` sets the parameters of its axes, its derived parameters, and the parameters in
-            ``[params]`` that were not fitted. Other parameters of the grid's preset or device are ignored, so the grid
-            must name only one preset or device.
+            ``[params]`` that were not fitted. All other parameters of the grid's preset or device are ignored. The grid
+            must name only one preset or device, because a fit has only one design.
         measure : str
             The measure to predict. The data need not have readings of the predicted measure.
         data_set : str, optional
@@ -184,7 +184,8 @@ class Fit(Solution):
             "lift_mean_mn", "drive_frequency": 110}``.
         count : int
             Number of readings to choose. A reading is a pair of an operating point and a measure. If `repeats` is False
-            and fewer pairs exist, the result contains all pairs. Points without a settled motion are left out.
+            and fewer than `count` pairs exist, the result contains all pairs. Points without a settled motion are left
+            out.
         measures : list of str, optional
             The measures that new readings can have. The default of `measures` is all measures in the data and in
             `sigma`.
@@ -250,10 +251,10 @@ class Fit(Solution):
         """Write a device file that contains the design with the fitted parameters, and the standard errors and
         correlations of the fitted parameters.
 
-        If the design of the fit is a device, the new file also contains the description of the device. The new file
-        also contains the standard errors, correlations and sources in this device for parameters that were not fitted.
-        You can name the new file in a grid, as in ``{"device": "mybee.toml"}``. The key ``[sample] of = "device"`` of a
-        grid draws samples of parameters from the standard errors in a device file.
+        If the design of the fit is a device, the new file also contains the description of the device. For parameters
+        that were not fitted, the new file also contains the standard errors, correlations and sources of the design's
+        device. You can name the new file in a grid, as in ``{"device": "mybee.toml"}``. The key
+        ``[sample] of = "device"`` of a grid draws samples of parameters from the standard errors in a device file.
 
         Parameters
         ----------
@@ -325,8 +326,8 @@ class Fit(Solution):
         self.held_out = _solution.held_out(names, all_readings(self._sets), answer.values, held, reach)
 
     def _target(self, target: str | Mapping[str, Any], data_set: str | None) -> tuple[Array, str, str, int]:
-        """Return the derivatives of a parameter or prediction with respect to the search coordinates, with its name and
-        unit.
+        """Return the derivatives with respect to the search coordinates, the name, and the unit of a parameter or
+        prediction.
 
         The last element of the result is the index of the data set that gives new readings their parameters and branch.
         """

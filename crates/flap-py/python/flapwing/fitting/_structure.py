@@ -37,9 +37,9 @@ class Structure:
     p : float
         The probability that the neighbouring residuals of pure noise are at least as similar as the neighbouring
         residuals of the fit. Neighbours are readings that differ only in `parameter`. If several readings have the same
-        value of `parameter`, the test also compares the mean residuals at the values (analysis of variance). Two values
-        of a parameter count as equal if their difference is at most 0.5 %, and at most 2 % of the parameter's range. If
-        the whole range of a parameter is at most 0.5 % of its value, all its values count as equal.
+        value of `parameter`, the test also compares the mean residuals at different values (analysis of variance). Two
+        values of a parameter count as equal if their difference is at most 0.5 %, and at most 2 % of the parameter's
+        range. If the whole range of a parameter is at most 0.5 % of its value, all its values count as equal.
     is_structured : bool
         True if the residuals have a pattern, so that the model probably lacks an effect.
     """
@@ -77,8 +77,8 @@ class Layout:
 
 
 def _ranks(values: np.ndarray[Any, Any]) -> Places:
-    """Return the ranks of the values of a parameter. Values that count as equal to the smallest value of a rank get the
-    same rank. If the whole range of the values is at most 0.5 % of the largest value, all values count as equal.
+    """Return the ranks of the values of a parameter. A value that counts as equal to the smallest value of a rank gets
+    this rank. If the whole range of the values is at most 0.5 % of the largest value, all values count as equal.
     """
     if values.dtype.kind != "f":
         return np.unique(values, return_inverse=True)[1].astype(np.intp)

@@ -130,7 +130,8 @@ class Subsets:
 
     def _note_bounds(self, space: Space, x: Array) -> None:
         """Add the parameters whose estimate is at a bound to `at_bounds`. A bound does not count if it equals the
-        design's value. If the design's value is outside of the bounds, its nearest bound does not count as a bound.
+        design's value. If the design's value is outside of the bounds, the bound nearest to the design's value does not
+        count.
         """
         for one, place, low, high in zip(space.coordinates, x, space.low, space.high):
             nominal = np.clip(float(self.names.nominal.get(one.parameter) or 0.0), one.low, one.high)
@@ -194,8 +195,8 @@ class Subsets:
         return np.array([one.at(float(np.clip(value, one.low, one.high))) for one in self.coordinates[name]])
 
     def _linear(self, one: Coordinate) -> Coordinate:
-        """Return a linear coordinate without a prior for the same parameter. At 0, the parameter has its value in the
-        design.
+        """Return a linear coordinate, without a prior, for the parameter of the coordinate `one`. At 0, the parameter
+        has its value in the design.
         """
         value = float(self.names.nominal[one.parameter])
         return replace(one, nominal=value, log=False, prior=None)

@@ -96,8 +96,8 @@ def heatmap(
         ``reduce="min"``. If `reduce` is neither ``"max"`` nor ``"min"``, the best cell has the smallest value of a cost
         such as power, and the largest value of other measures.
     where, **slices
-        The selection of rows, as for `response`. If you give `reduce` and select no value of an axis that is not drawn,
-        `reduce` combines the rows at all values of this axis.
+        Values of columns that select rows, as in `flapwing.plot.response`. If you give `reduce` and select no value of
+        an axis that is not drawn, `reduce` combines the rows at all values of this axis.
     legend, colorbar, ax
         These arguments have the same meaning as in `flapwing.plot.response`.
 

@@ -46,9 +46,9 @@ def histogram(
         Percentages from 0 to 100. For each percentage, a line in the picture shows the percentile. The default of
         `percentiles` is 5 %, 50 % and 95 %.
     where, **slices
-        The selection of rows, as for `response`. In results of a grid without a sample, all values of an axis are used
-        if you select no value. If a sample is combined with an axis and you select no value of the axis, only the
-        axis's middle value is used.
+        Values of columns that select rows, as in `flapwing.plot.response`. In results of a grid without a sample, all
+        values of an axis are used if you select no value. If a sample is combined with an axis and you select no value
+        of the axis, only the axis's middle value is used.
     legend, ax
         These arguments have the same meaning as in `flapwing.plot.response`. The legend contains the mean and the
         standard deviation of the measure.

@@ -29,8 +29,8 @@ def hysteresis(
     """Draw the branches `up` and `down` of a response. If the table contains the branch `unstable`, the picture also
     shows this branch.
 
-    Arrows show in which direction the parameter changes on each branch, and the jumps from branch to branch. Bistable
-    bands are shaded.
+    An arrowhead on each branch shows the direction in which the parameter changes. Vertical arrows show jumps from
+    branch to branch. Bistable bands are shaded.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def hysteresis(
     curve : int, optional
         If the table contains several designs, the number of one design in the column ``curve``.
     where, **slices
-        The selection of rows, as for `response`.
+        Values of columns that select rows, as in `flapwing.plot.response`.
     legend, ax
         These arguments have the same meaning as in `flapwing.plot.response`.
 
@@ -152,7 +152,7 @@ def _one_design(data: Data) -> None:
 
 
 def _with_gaps(x: np.ndarray, y: np.ndarray, after: list[int]) -> tuple[np.ndarray, np.ndarray]:
-    """Return the points of a line. The line has a gap behind each point whose index is in `after`."""
+    """Return the points of a line. The line has a gap after each point whose index is in `after`."""
     places = [i + 1 for i in after]
     return np.insert(x, places, np.nan), np.insert(y, places, np.nan)
 

@@ -52,9 +52,9 @@ def pareto(
         A colour map of matplotlib, if `color` is a column of numbers. The default of `cmap` is the same as in
         `flapwing.plot.heatmap`.
     where, **slices
-        The selection of rows, as for `response`. If you select no value of an axis, the picture shows the designs at
-        all values of this axis. If a sample is combined with an axis, the picture also shows the designs at all values
-        of the axis.
+        Values of columns that select rows, as in `flapwing.plot.response`. If you select no value of an axis, the
+        picture shows the designs at all values of this axis. If a sample is combined with an axis, the picture also
+        shows the designs at all values of the axis.
     legend, colorbar, ax
         These arguments have the same meaning as in `flapwing.plot.response`.
 

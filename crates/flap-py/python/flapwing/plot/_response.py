@@ -144,7 +144,7 @@ def response_panels(
         `by` is the first axis that is not on the horizontal axis. If you give several results, you cannot give `by`,
         because the picture has one line for each of the results.
     where, **slices
-        The selection of rows, as for `response`.
+        Values of columns that select rows, as in `flapwing.plot.response`.
     label : sequence of str, optional
         If `table` is a list of results, the name of each result in the legend. By default, the names are the numbers of
         the results in the list.

@@ -48,9 +48,9 @@ def scatter(
         A colour map of matplotlib, if `color` is a column of numbers. The default of `cmap` is the same as in
         `flapwing.plot.heatmap`.
     where, **slices
-        The selection of rows, as for `response`. In results of a grid without a sample, all values of an axis are used
-        if you select no value. If a sample is combined with an axis that is not drawn and you select no value, only the
-        axis's middle value is used.
+        Values of columns that select rows, as in `flapwing.plot.response`. In results of a grid without a sample, all
+        values of an axis are used if you select no value. If a sample is combined with an axis that is not drawn and
+        you select no value, only the axis's middle value is used.
     legend, colorbar, ax
         These arguments have the same meaning as in `flapwing.plot.response`.
 
@@ -99,7 +99,7 @@ def scatter(
 
 def _third(data: Data, taken: list[str]) -> str | None:
     """Return the measure that sets the colours by default. The measure for the colours differs from the measures on the
-    two axes. Return None if the table contains no further measure.
+    two axes. Return None if the table contains no other measure.
     """
     try:
         return data.usual("motion", "color", taken)

@@ -304,7 +304,7 @@ def _shorten(label: Any, side: str, room: float) -> None:
 
 
 def _fit_labels(figure: Figure) -> None:
-    """Shorten the labels of axes that are longer than the room that the figure has for the axes."""
+    """Shorten each label that is longer than the room that the figure has for the axes of the label."""
     figure.draw_without_rendering()
     for ax in figure.axes:
         place = ax.get_subplotspec()
@@ -324,8 +324,8 @@ def _fit_labels(figure: Figure) -> None:
 
 
 def fitted(ax: Any, draw: Callable[[int], Legend], columns: int) -> Legend:
-    """Draw a legend with at most `columns` columns. If the legend is wider than the axes or the part of the figure, the
-    function reduces the number of columns.
+    """Draw a legend with at most `columns` columns. If the legend is too wide, the function reduces the number of
+    columns.
     """
     part = ax.figure if isinstance(ax, Axes) else ax
     legend = draw(columns)

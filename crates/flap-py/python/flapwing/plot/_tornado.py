@@ -29,8 +29,7 @@ def tornado(
     ax: Axes | None = None,
     **fixed: Any,
 ) -> _style.Drawn:
-    """Draw a bar for each parameter that shows the sensitivity of a measure to this parameter. The longest bar is at
-    the top.
+    """Draw the sensitivity of a measure to each parameter as a bar. The longest bar is at the top.
 
     If `design` is a preset, flap changes each parameter of the preset slightly, and the bars show the changes of the
     measure. If `design` contains results of a sample, the bars show the rank correlation (Spearman) of each parameter

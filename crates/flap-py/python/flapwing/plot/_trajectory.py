@@ -201,9 +201,7 @@ def _earlier(ax: Axes, unit: str) -> list[str]:
 
 
 def _factor(ax: Axes, time: Shown) -> float:
-    """Return the factor from the unit in which flap would show the time to the unit of the motions that the axes
-    already contain.
-    """
+    """Return the factor that converts `time` to the unit of time of the motions that the axes already contain."""
     sizes = {"s": 1.0, "ms": 1e3, "µs": 1e6}
     there = [unit for unit in sizes if ax.get_xlabel() == _labels.titled(time.words, unit)]
     return sizes[there[0]] / sizes[time.unit] if there and time.unit in sizes else 1.0

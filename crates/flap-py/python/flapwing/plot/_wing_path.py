@@ -37,8 +37,8 @@ def wing_path(
     legend: bool | str = True,
     ax: Axes | None = None,
 ) -> Animation:
-    """Animate the last cycle of a motion. The animation shows the chord of the wing from the wing's tip, while the
-    chord moves along the stroke.
+    """Animate the last cycle of a motion. The animation shows the chord as an observer at the wing's tip sees it, while
+    the chord moves along the stroke.
 
     A line shows the chord from the leading edge, which is a dot at the upper edge of the wing, to the trailing edge.
     The length of an arrow shows the lift. If the lift is negative, the arrow points down. Below the wing, curves show
