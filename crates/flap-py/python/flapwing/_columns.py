@@ -51,7 +51,7 @@ class Column(NamedTuple):
         return np.equal(self.cells, 1)
 
     def known(self) -> np.ndarray[Any, Any]:
-        """Return an array of True and False, which is True for each cell of the column with a known value."""
+        """Return an array that is True for known cells of the column, and False for unknown cells."""
         if self.is_flag:
             return np.greater_equal(self.cells, 0)
         if self.cells.dtype == np.float64:

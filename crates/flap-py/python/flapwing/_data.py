@@ -249,7 +249,7 @@ class Data:
         return np.asarray(distance <= 1e-9 * np.ptp(known))
 
     def groups(self, names: Sequence[str]) -> np.ndarray:
-        """Return one group number per row. Rows with the same values in all columns `names` have the same number."""
+        """Return a group number for each row. Rows with the same values in all columns `names` have the same number."""
         numbers = np.zeros(len(self), dtype=np.int64)
         for name in names:
             values, inverse = np.unique(self[name], return_inverse=True)
@@ -344,8 +344,8 @@ def _plain(column: np.ndarray) -> np.ndarray:
 
 
 class Shown:
-    """A column for a picture: the values in a readable unit, the factor to the readable unit, and the label of the
-    column."""
+    """A column for a picture: the values in a readable unit, the factor that converts to the readable unit, and the
+    label of the column."""
 
     def __init__(self, data: Data, name: str) -> None:
         self.name = name

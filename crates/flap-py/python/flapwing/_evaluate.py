@@ -85,8 +85,8 @@ def evaluate(
         axis `row`. Points that ``[where]`` excludes have no row, but the indices in the column `point` count the
         excluded points too. A row has the status ``"invalid"`` if a value is out of range, infinite or not a number. A
         row is also invalid if the combination of parameter values is impossible. ``table.meta["invalid"]`` has the
-        reasons why the first few points are invalid. With `gradient`, a missing derivative is nan, and the column
-        ``gradient_gap`` has the reason.
+        first few invalid points, with the reason why each point is invalid. With `gradient`, a missing derivative is
+        nan, and the column ``gradient_gap`` has the reason.
 
     Raises
     ------

@@ -39,8 +39,8 @@ def _columns_of(native: dict[str, Any]) -> dict[str, Column]:
 
 
 def _read_only(values: Any) -> np.ndarray[Any, Any]:
-    """Return values as a read-only array. Tables with some rows of another table use the same memory as the other
-    table, so writing is not allowed."""
+    """Return values as a read-only array. If a table is a selection of rows of another table, the two tables can share
+    memory, so writing is not allowed."""
     array = np.asarray(values).view()
     array.flags.writeable = False
     return array
@@ -84,8 +84,8 @@ class Table:
 
     @classmethod
     def _of(cls, native: dict[str, Any], path: str | None = None, keywords: Mapping[str, Any] | None = None) -> Table:
-        """Return a table of the results of the compiled module. The user's call had the keyword arguments `keywords`.
-        If `path` is given, a column is read from the file `path` when the column is first used.
+        """Return a table of the results of the compiled module. `keywords` contains the keyword arguments of the user's
+        call. If `path` is given, a column is read from the file `path` when the column is first used.
         """
         meta = {**native.get("meta", {}), **native.get("summary", {})}
         if keywords is not None:

@@ -136,8 +136,8 @@ class Vehicle(_Entries):
     trim : str, optional
         If `trim` is ``"hover"``, each design is computed at hover: flap searches for the inputs at which the lift
         equals the weight and all torques are zero. The rows of a trimmed vehicle also contain the values of the inputs
-        at hover. Two further columns describe the mode of motion about hover that grows fastest: the growth rate and
-        the period. `trim` requires `total_mass`.
+        at hover. The rows also have two columns about the fastest-growing mode of motion about hover: the growth rate
+        and the period of this mode. `trim` requires `total_mass`.
     damping : bool
         If True, rows also have the 36 derivatives of mean force and torque with respect to the velocity and the rates
         of the body.

@@ -91,7 +91,7 @@ def sensitivities(
 ) -> list[Sensitivity]:
     """Compute the change of a measure when each parameter of a design is slightly decreased and slightly increased.
 
-    flap simulates the unchanged design, and two further designs for each parameter: with a lower and with a higher
+    flap simulates the unchanged design, and two changed designs for each parameter: with a lower and with a higher
     value of the parameter. Only one parameter is changed at a time, together with parameters that flap computes from
     the changed parameter. For example, the bias of a preset can depend on the drive voltage.
 

@@ -119,7 +119,7 @@ class DataSet:
 
 
 def all_readings(sets: Sequence[DataSet]) -> Array:
-    """Return the readings of all data sets in one array, in the same order as `places_of`."""
+    """Return the readings of all data sets in one array, in the order in which `places_of` lists the readings."""
     return np.concatenate([readings for one in sets for readings in one.measured.values()])
 
 

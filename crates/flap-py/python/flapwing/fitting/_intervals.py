@@ -202,10 +202,10 @@ def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> l
 
     The derivatives of the readings are computed at several random sets of parameters. If the derivatives have a null
     space at each set, the measured quantities at the operating points of the data cannot determine all parameters. If
-    only a product of parameters affects the readings, the null space in the logarithms of the parameters does not
-    depend on the set. If only a sum of parameters affects the readings, the null space in the parameters themselves
-    does not depend on the set. To find a null space that all sets of parameters have in common, the derivatives at all
-    sets are stacked in one matrix.
+    only a product of parameters affects the readings, all sets of parameters have the same null space in the logarithms
+    of the parameters. If only a sum of parameters affects the readings, all sets of parameters have the same null space
+    in the parameters themselves. To find a null space that all sets of parameters have in common, the derivatives at
+    all sets are stacked in one matrix.
     """
     space = model.space
     # A change that affects no reading at any values of the parameters affects none at the estimate.
@@ -285,8 +285,8 @@ def _in_words(space: Space, direction: Array) -> str:
 
 def combinations(space: Space, jacobian: Array) -> list[str]:
     """Return texts that describe the combination of parameters that the data determine best, and the combination that
-    the data determine worst. A text contains the standard error along the combination, as a change of the combination's
-    first parameter.
+    the data determine worst. A text contains the standard error of the combination, converted to a change of the first
+    parameter in the combination.
     """
     if len(space) < 2:
         return []

@@ -38,7 +38,7 @@ UNKNOWN_NOISE = Noise("unknown")
 
 
 def parse_noise(name: str, given: Any, measure: str, unit: str) -> Noise:
-    """Return the standard error that a user gives for a measure as a `Noise` object. The user gives a number in the
+    """Return a `Noise` object with the standard error that a user gives for a measure. The user gives a number in the
     unit of the measure, or text such as ``"1 deg"`` or ``"3 %"``.
     """
     wanted = (

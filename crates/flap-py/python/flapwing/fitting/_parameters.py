@@ -88,7 +88,7 @@ class Coordinate:
 
     @property
     def width(self) -> float:
-        """Half of the difference between the bounds of the parameter, which is the unit of a linear coordinate."""
+        """The unit of a linear coordinate: half of the difference between the bounds of the parameter."""
         return 0.5 * (self.high - self.low)
 
 

@@ -326,8 +326,8 @@ class Fit(Solution):
         self.held_out = _solution.held_out(names, all_readings(self._sets), answer.values, held, reach)
 
     def _target(self, target: str | Mapping[str, Any], data_set: str | None) -> tuple[Array, str, str, int]:
-        """Return the derivatives with respect to the search coordinates, the name, and the unit of a parameter or
-        prediction.
+        """Return the derivatives of a parameter or prediction with respect to the search coordinates. Also return the
+        name and the unit of the parameter or prediction.
 
         The last element of the result is the index of the data set that gives new readings their parameters and branch.
         """

@@ -34,8 +34,8 @@ def together(
     """Run several searches at the same time, and return their results. Each search requests the model's predictions for
     one set of coordinates at a time.
 
-    Each search runs in its own thread. The calling thread passes the requests of all running searches to `answer`, so
-    that Ctrl-C ends all searches.
+    Each search runs in its own thread. The calling thread passes the requests of all running searches to `answer`. If
+    Ctrl-C interrupts the calling thread, all searches end.
     """
     inbox: queue.SimpleQueue[tuple[int, str, Any]] = queue.SimpleQueue()
     replies: list[queue.SimpleQueue[Answer | None]] = [queue.SimpleQueue() for _ in searches]

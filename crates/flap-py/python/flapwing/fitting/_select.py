@@ -192,8 +192,8 @@ def select(
         Largest number of free parameters, including the parameters in `start`. The default of `budget` is a fifth of
         the number of fitted readings, but at least one more than the number of parameters in `start`.
     rhs_budget : float, optional
-        Limit for the number of evaluations of the equations of motion. If a step exceeds the limit, no further step
-        begins, but `select` still runs the final fit.
+        Limit for the number of evaluations of the equations of motion. If a step exceeds the limit, no new step begins,
+        but `select` still runs the final fit.
     criterion : {"AICc", "BIC"}
         The information criterion that each step of the selection must lower.
     significance : float

@@ -213,7 +213,7 @@ class Goodness:
 
     @property
     def is_structured(self) -> bool:
-        """True if the residuals have a pattern, so that the model probably lacks an effect."""
+        """True if the residuals have a pattern, which suggests that the model lacks an effect."""
         return any(one.is_structured for one in self.residuals)
 
 

@@ -38,10 +38,10 @@ class Structure:
         The probability that the neighbouring residuals of pure noise are at least as similar as the neighbouring
         residuals of the fit. Neighbours are readings that differ only in `parameter`. If several readings have the same
         value of `parameter`, the test also compares the mean residuals at different values (analysis of variance). Two
-        values of a parameter count as equal if their difference is at most 0.5 %, and at most 2 % of the parameter's
+        values of a parameter count as equal if they differ by at most 0.5 %, and by at most 2 % of the parameter's
         range. If the whole range of a parameter is at most 0.5 % of its value, all its values count as equal.
     is_structured : bool
-        True if the residuals have a pattern, so that the model probably lacks an effect.
+        True if the residuals have a pattern, which suggests that the model lacks an effect.
     """
 
     measure: str

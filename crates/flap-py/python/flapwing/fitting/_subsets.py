@@ -112,8 +112,8 @@ class Subsets:
     def _searched(
         self, model: Model, target: Target, begin: Array, guesses: dict[str, float]
     ) -> tuple[Array, Answer, Target]:
-        """Return the coordinates at the end of a search from `begin`, the model's predictions there, and a `Target`
-        with the final standard errors.
+        """Return the coordinates at the end of a search from `begin`, the model's predictions at these coordinates, and
+        a `Target` with the final standard errors.
         """
         x = _search.from_all(model, target, [begin])[0].x if len(begin) else begin
         for _ in range(_ROUNDS):
@@ -195,8 +195,8 @@ class Subsets:
         return np.array([one.at(float(np.clip(value, one.low, one.high))) for one in self.coordinates[name]])
 
     def _linear(self, one: Coordinate) -> Coordinate:
-        """Return a linear coordinate, without a prior, for the parameter of the coordinate `one`. At 0, the parameter
-        has its value in the design.
+        """Return a linear coordinate, without a prior, for the parameter of the coordinate `one`. If the coordinate is
+        0, the parameter has its value in the design.
         """
         value = float(self.names.nominal[one.parameter])
         return replace(one, nominal=value, log=False, prior=None)

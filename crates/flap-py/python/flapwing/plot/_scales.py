@@ -75,8 +75,8 @@ def _diverging(low: float, high: float) -> Colormap:
 
 
 def log_ticks(low: float, high: float) -> list[float]:
-    """Return round numbers for the ticks of a logarithmic scale. If the scale is short and contains no power of ten,
-    other round numbers get ticks.
+    """Return round numbers for the ticks of a logarithmic scale. A short scale also has ticks at round numbers between
+    the powers of ten, for example at 20 and 50.
     """
     subs = [1.0, 2.0, 5.0] if high / low < 300 else [1.0]
     if high / low < 8:

@@ -256,8 +256,8 @@ def _rate(data: Data, name: str, t: np.ndarray, shown: Shown) -> tuple[np.ndarra
 
 def _common(words: list[str], unit: str) -> str:
     """Return the label of a vertical axis that shows several columns. If the unit is degrees, the label is "Angle". For
-    two columns, the label consists of both names. For more than two columns, the label is the last word of all names,
-    or "Value" if the last words differ.
+    two columns, the label consists of the names of the two columns. For more than two columns, the label is the last
+    word of all names, or "Value" if the last words differ.
     """
     if unit == "°":
         return "Angle"
