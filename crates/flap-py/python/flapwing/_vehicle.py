@@ -209,8 +209,9 @@ class Vehicle(_Entries):
         Parameters
         ----------
         inputs : sequence of str, optional
-            The inputs: parameters, or words such as ``"amplitude_difference"``. ``flap vehicle --help`` lists the
-            words. The default of `inputs` is amplitude, bias, and the left-right differences of amplitude and bias.
+            The inputs: parameters, or words such as ``"amplitude_difference"``. ``flap vehicle --help`` lists the words
+            for inputs. The default of `inputs` is amplitude, bias, and the left-right differences of amplitude and
+            bias.
         point : int, optional
             The index of a point, if the vehicle is a grid with several points.
         trim : bool

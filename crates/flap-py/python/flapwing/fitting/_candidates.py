@@ -60,8 +60,8 @@ def candidates(design: Design, /) -> dict[str, FreeParameter]:
 
     The result does not contain `lift_term_1`, `lift_term_2`, `drag_term_0` and `drag_term_1`. Readings of stroke and
     pitch can hardly distinguish the lift and drag terms from other parameters of the result. If your data contain
-    readings of lift, add the lift and drag terms to the result. The default bounds of the lift and drag terms are -1
-    and 1.
+    readings of lift, add the lift and drag terms to the returned dictionary. The default bounds of the lift and drag
+    terms are -1 and 1.
 
     Parameters
     ----------

@@ -29,7 +29,7 @@ class Readings:
     columns : dict, Table, DataFrame or path
         Columns of operating points and measures, or the path of a CSV file with these columns. The name of a column is
         the name of a parameter or a measure. Parameters are in SI units, and measures are in the unit at the end of the
-        measure's name. If a column has a different unit, write the unit in the name of the column
+        measure's name. If a column does not have the default unit, write the unit in the name of the column
         (``drive_frequency_khz``, ``hinge_stiffness (uN*m/rad)``) or in each cell (``"0.12 kHz"``). A column with the
         name ``frequency_hz`` contains the parameter ``drive_frequency``, in hertz. A column with a measure's name and
         the suffix ``_sigma`` contains standard errors, in the measure's unit or as ``"3 %"``.
@@ -44,7 +44,7 @@ class Readings:
         The branch of hysteresis on which the readings were taken: ``"up"`` if the value of `parameter` was increased
         during the experiment, ``"down"`` if the value was decreased.
     parameter : str, optional
-        If you give `branch`, the parameter that was increased or decreased during the experiment. The default of
+        The parameter that was increased or decreased during the experiment, if you give `branch`. The default of
         `parameter` is ``"drive_frequency"``.
     **params : float or str
         Parameters that have the same value at all operating points of the experiment, such as ``drive_voltage_pp="160

@@ -255,8 +255,8 @@ def _null_space(jacobian: Array) -> Array:
 
 
 def _sparse(directions: Array) -> list[Array]:
-    """Return linear combinations of the given directions in which few parameters change. The combinations are found by
-    Gaussian elimination.
+    """Return linear combinations of the given directions, such that few parameters change along each combination. The
+    combinations are found by Gaussian elimination.
     """
     rows = [row / np.abs(row).max() for row in directions]
     for place in range(len(rows)):

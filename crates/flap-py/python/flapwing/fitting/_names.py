@@ -76,8 +76,8 @@ class Names:
         self.measures = {measure["name"]: measure["unit"] for measure in _flapwing.measures(self.model)}
 
     def is_measure(self, name: str) -> bool:
-        """Return True if `name` is a measure of the model, or a measure that the design defines under ``[measure]``.
-        The method adds a measure that the design defines to the attribute `measures`, without a unit.
+        """Return True if `name` is a measure of the model, or a measure that the design defines under ``[measure]``. If
+        the design defines the measure, the method adds the measure, without a unit, to the attribute `measures`.
         """
         if name in self.measures:
             return True

@@ -111,7 +111,7 @@ class Fit(Solution):
 
         The width of the bands accounts for the standard errors of the parameters. If the model does not agree with the
         data, the width of the bands also accounts for the discrepancy of the model. If the data have no readings of the
-        measure, the discrepancy is unknown, and the bands leave it out.
+        measure, the discrepancy is unknown, and the bands leave out the discrepancy.
 
         Parameters
         ----------
@@ -261,7 +261,7 @@ class Fit(Solution):
         path : str or path
             The path of the device file.
         data_set : str, optional
-            If some parameters have a separate value for each data set, the data set whose values are written.
+            The data set whose values are written, if some parameters have a separate value for each data set.
         overwrite : bool
             If True, an existing file is replaced.
 

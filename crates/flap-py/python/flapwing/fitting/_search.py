@@ -158,8 +158,8 @@ def minimise(
     steps: int = _STEPS,
     tolerance: float = 1e-8,
 ) -> Found:
-    """Search the coordinates with the lowest cost, from `begin`. The coordinate with the index `fixed` does not
-    change.
+    """Search for the coordinates with the lowest cost, beginning at `begin`. The coordinate with the index `fixed` does
+    not change.
     """
     from scipy.optimize import least_squares
 
@@ -294,8 +294,8 @@ def from_all(model: Model, target: Target, begins: Sequence[Array]) -> list[Foun
 
 
 def polish(model: Model, target: Target, begin: Array, error: float = _COST) -> Found:
-    """Search the coordinates with the lowest cost, from `begin`, with the integration tolerance of the last search.
-    `error` is the largest allowed error of the cost.
+    """Search for the coordinates with the lowest cost, beginning at `begin`, with the integration tolerance of the last
+    search. `error` is the largest allowed error of the cost.
     """
 
     def ask(x: Array) -> Answer:

@@ -94,7 +94,7 @@ def flight(
         (degrees), ``"force"`` (mN), ``"torque"`` (µN·m) and ``"inputs"``. The group ``"inputs"`` has one panel for each
         unit. The default of `groups` is velocity, rate, position and angle, and the inputs if the flights have inputs.
     label : sequence of str, optional
-        If `table` is a list of flights, the name of each flight.
+        The name of each flight, if `table` is a list of flights.
     legend, ax
         These arguments have the same meaning as in `flapwing.plot.response`. If you give `ax`, choose one group, and
         the group must have only one panel.

@@ -79,7 +79,7 @@ def flight_film(
     scale : float, optional
         Factor by which the drawn vehicle is larger than the true vehicle on the scale of the trajectory. `scale` must
         be more than zero. The default of `scale` is 1. If the true vehicle is smaller than 15 % of the flown distance,
-        the default of `scale` enlarges the vehicle to 15 %.
+        the default of `scale` enlarges the vehicle to 15 % of this distance.
 
     Returns
     -------

@@ -42,7 +42,7 @@ def hysteresis(
         The parameter that rises or falls along the branches, on the horizontal axis. The default of `parameter` is the
         parameter that `flapwing.respond` changed.
     curve : int, optional
-        If the table contains several designs, the number of one design in the column ``curve``.
+        The number of one design in the column ``curve``, if the table contains several designs.
     where, **slices
         Values of columns that select rows, as in `flapwing.plot.response`.
     legend, ax

@@ -62,7 +62,7 @@ def response(
         value of an axis that is not drawn, the picture shows only the rows at the middle value of this axis. A warning
         shows the middle value that was used.
     label : sequence of str, optional
-        If `table` is a list of results, the name of each result in the legend. By default, the names are the numbers of
+        The name of each result in the legend, if `table` is a list of results. By default, the names are the numbers of
         the results in the list.
     legend : bool or str
         If `legend` is False, the picture has no legend. If `legend` is text such as ``"upper left"``, the legend is at
@@ -146,7 +146,7 @@ def response_panels(
     where, **slices
         Values of columns that select rows, as in `flapwing.plot.response`.
     label : sequence of str, optional
-        If `table` is a list of results, the name of each result in the legend. By default, the names are the numbers of
+        The name of each result in the legend, if `table` is a list of results. By default, the names are the numbers of
         the results in the list.
     legend, colorbar
         These arguments have the same meaning as in `flapwing.plot.response`.

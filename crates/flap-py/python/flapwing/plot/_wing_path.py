@@ -58,7 +58,7 @@ def wing_path(
     radius : float, optional
         Distance of the drawn chord from the stroke axis, as a multiple of the length of the chord. The default of
         `radius` is 3. If the peak-to-peak stroke is less than 11 degrees, the default of `radius` is so large that the
-        leading edge moves by 2.5 chords.
+        leading edge moves by 2.5 chord lengths.
     lift : str or None
         The column that the length of the arrow shows. If `lift` is None, no arrow is drawn. If you do not give `lift`
         and the table has no column `lift_mn`, no arrow is drawn.
@@ -246,8 +246,8 @@ def pitch_sign_of(data: Data, cycle: Cycle) -> int:
     """Return the sign convention of the pitch. With a positive pitch and a rising stroke, the trailing edge lags (1) or
     leads (-1).
 
-    The sign is the convention of the table's model. If the table contains no model, the sign is chosen such that the
-    trailing edge lags on average.
+    The sign convention is the convention of the table's model. If the table contains no model, the sign is chosen such
+    that the trailing edge lags on average.
     """
     sign = data.meta.get("pitch_sign")
     if sign is not None:
