@@ -46,8 +46,8 @@ fn pitch_is_the_arc_sine_of_the_projected_chord() {
     let edge = edge([0.0, 0.0], 0.3);
     for pitch in [-1.2, -0.4, 0.0, 0.7, 1.5_f64] {
         let d = 6.5 * pitch.sin();
-        // A point of the lower edge, to the left of the leading edge where d > 0.
-        let point = [15.0 * 0.3_f64.cos() - d * 0.3_f64.sin(), 15.0 * 0.3_f64.sin() + d * 0.3_f64.cos()];
+        // A point of the lower edge, which lags if d > 0 and the stroke rises.
+        let point = [15.0 * 0.3_f64.cos() + d * 0.3_f64.sin(), 15.0 * 0.3_f64.sin() - d * 0.3_f64.cos()];
         assert!((edge.distance(point) - d).abs() < 1e-13);
         assert!((pitch_from_projection(edge.distance(point), 6.5).unwrap() - pitch).abs() < 1e-13);
     }

@@ -245,7 +245,7 @@ def test_motions_have_meanings_and_an_origin():
 def test_forces_of_filmed_wings_are_those_of_the_command(flap, tmp_path):
     time, stroke = np.linspace(0, 5, 60), 0.6 * np.sin(np.linspace(0, 2 * np.pi, 60))
     pitch = 0.5 * np.cos(np.linspace(0, 2 * np.pi, 60))
-    # The lower edge appears at chord times the sine of the pitch to the left of the leading edge.
+    # The lower edge appears at chord times the sine of the pitch to the right of the leading edge.
     film = pandas.DataFrame(
         {
             "time_ms": time,
@@ -253,8 +253,8 @@ def test_forces_of_filmed_wings_are_those_of_the_command(flap, tmp_path):
             "root_y": 2.0,
             "tip_x": 1 + 9 * np.cos(stroke),
             "tip_y": 2 + 9 * np.sin(stroke),
-            "edge_x": 1 - 3 * np.sin(pitch) * np.sin(stroke),
-            "edge_y": 2 + 3 * np.sin(pitch) * np.cos(stroke),
+            "edge_x": 1 + 3 * np.sin(pitch) * np.sin(stroke),
+            "edge_y": 2 - 3 * np.sin(pitch) * np.cos(stroke),
         }
     )
     film.to_csv(tmp_path / "film.csv", index=False)

@@ -194,8 +194,9 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     """Compute stroke and pitch of a filmed wing from points that were tracked in the images of the film.
 
     The stroke is the angle from the x-axis to the leading edge, without jumps by 360°. The pitch is computed from the
-    length of the chord in the image. The centre of the stroke's rotation is the point nearest to the lines through all
-    leading edges (Ozaki and Hamaguchi 2018, eqs. 42 and 43).
+    length of the chord in the image. The pitch is positive if the lower edge lags while the stroke rises, so for the
+    model `four-bar`, multiply the pitch by -1. The centre of the stroke's rotation is the point nearest to the lines
+    through all leading edges (Ozaki and Hamaguchi 2018, eqs. 42 and 43).
 
     Parameters
     ----------
