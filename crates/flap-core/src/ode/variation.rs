@@ -3,10 +3,11 @@
 //! The step sizes depend on the errors of the states and of the responses. At a kink of a force, the
 //! derivative of the force jumps, and the responses have larger errors than the states.
 //!
-//! The slopes of the responses are forward differences of the right-hand side, with changes of about 1e-7 of
-//! the states' typical sizes. The errors of the slopes are about 1e-7 times the second derivative of the
-//! right-hand side, plus rounding errors of about 1e-9. At a jump of the right-hand side, the responses also
-//! jump, because a changed motion reaches the switching surface earlier or later.
+//! The time derivatives of the responses to the initial state are forward differences of the right-hand side.
+//! The differences use changes of about 1e-7 of the states' typical sizes. The errors of the time derivatives
+//! are about 1e-7 times the second derivative of the right-hand side, plus rounding errors of about 1e-9. At
+//! a jump of the right-hand side, the responses also jump, because a changed motion reaches the switching
+//! surface earlier or later.
 
 use super::{Ode, slope};
 use crate::num::{Lanes, Real};

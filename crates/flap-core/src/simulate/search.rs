@@ -8,10 +8,11 @@
 //! 2. **Middle.** flap finds the orbit and computes its measures at a middle tolerance, between the loose
 //!    tolerance and the tolerance of the row. The error estimate of the row is computed from the difference
 //!    between the measures at the middle tolerance and the measures of the row.
-//! 3. **Approach.** Chord steps at the tolerance of the row lead close to the orbit of the row. The monodromy
-//!    matrix is computed from a period with responses to changes of the initial state. A Newton step with the
-//!    monodromy matrix leads to the orbit of the row. The period of this orbit is then integrated and
-//!    measured, which also confirms that the motion returns to its initial state.
+//! 3. **Approach.** Broyden steps, which this code calls chord steps, lead close to the orbit of the row.
+//!    They are integrated at the tolerance of the row. The monodromy matrix is computed from a period with
+//!    responses to changes of the initial state. A Newton step with the monodromy matrix leads to the orbit
+//!    of the row. The period of this orbit is then integrated and measured, which also confirms that the
+//!    motion returns to its initial state.
 //! 4. **Judge.** If a row is not accurate enough, the row is computed again with tighter tolerances, from the
 //!    orbit that was found.
 //!
