@@ -48,9 +48,10 @@ fn body([forward, left, up, roll, pitch, yaw]: [f64; 6]) -> BodyParameters {
 /// A section: distance from the stroke axis, chord and width (m).
 type Section = [f64; 3];
 
-/// Sums over sections of the load of circulation (times `circulation`), added mass (times `added`), and rotational drag with the
-/// coefficient `rotation`, in the directions of [`Load`]. The pitch axis is `axis` chords behind the leading edge. The shoulder has
-/// this velocity (m/s) and these rates (rad/s).
+/// Sums over sections of the load of circulation (times `circulation`), added mass (times `added`), and
+/// rotational drag with the coefficient `rotation`, in the directions of [`Load`]. The pitch axis lies behind
+/// the leading edge at the distance `axis` times the chord. The shoulder has this velocity (m/s) and these
+/// rates (rad/s).
 fn summed(
     sections: &[Section],
     density: f64,

@@ -35,7 +35,8 @@ crate::parameters! {
         /// along the stroke axis.
         body_velocity_up: f64 = ("m/s", "w", Number(Any), default: 0.0),
         /// Roll rate of the body. A positive rate lifts the left side. For a single wing, the parameter is
-        /// the angular velocity of the shoulder about the direction of a positive stroke.
+        /// the angular velocity of the shoulder about its forward axis. At zero stroke, the wing moves along
+        /// this axis when the stroke increases.
         body_rate_roll: f64 = ("rad/s", "p", Number(Any), default: 0.0),
         /// Pitch rate of the body. A positive rate lowers the nose. For a single wing, the parameter is the
         /// angular velocity of the shoulder about the span at zero stroke.

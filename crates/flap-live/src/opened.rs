@@ -210,7 +210,8 @@ impl Opened {
         }
     }
 
-    /// Returns the plan of a grid file of the page, which is checked like every grid file.
+    /// Returns the plan of a grid file that the browser page has created. The function checks this grid file
+    /// like every grid file.
     ///
     /// # Errors
     /// Returns [`Refused::Impossible`] with the first mistake in the grid file.
@@ -230,8 +231,8 @@ impl Opened {
     }
 }
 
-/// Returns the plan of a grid file of the page. If the grid file names device files of wings, these files are
-/// not read again: the function uses the contents that are stored in `opened`.
+/// Returns the plan of a grid file that the browser page has created. If the grid file names device files of
+/// wings, these files are not read again: the function uses the contents that are stored in `opened`.
 fn parsed(opened: &Plan, grid: &str, models: &[&'static dyn Simulator]) -> Result<Plan, Mistakes> {
     // Paths of devices are relative to the folder of the opened file.
     let name = Path::new(&opened.source().name).with_file_name(NAME);

@@ -30,7 +30,7 @@ pub(crate) struct PlotArgs {
     #[arg(short, long, value_enum)]
     pub(crate) kind: Option<PictureKind>,
 
-    /// Column on the horizontal axis; in a histogram or a tornado, the measure that the picture shows
+    /// Column on the horizontal axis; in a histogram or a tornado picture, the measure that the picture shows
     #[arg(short, long, value_name = "COLUMN")]
     pub(crate) x: Option<String>,
 
@@ -77,8 +77,8 @@ pub(crate) struct PlotArgs {
     #[arg(long, value_enum)]
     pub(crate) y_aim: Option<Aim>,
 
-    /// In a tornado, show for each parameter the change of the measure per standard deviation of this
-    /// parameter. flap computes this change twice: from derivatives and from the sample
+    /// In a tornado picture, show the change of the measure per standard deviation of each parameter. flap computes
+    /// this change twice: from derivatives and from the sample
     ///
     /// The derivatives are the columns of [gradient], averaged over the designs. If the file has no columns
     /// of [gradient], flap computes the derivatives at the means of the parameters, from the grid in the
@@ -179,7 +179,7 @@ two or more parameters, the kind is `map`. If --x and --y are measures, the kind
 and for a sweep of one parameter.
 
 If you give no columns, a scatter or Pareto picture shows the mean lift against the mean power. The points of a \
-scatter picture are coloured by the peak-to-peak stroke. A histogram or a tornado shows the mean lift. If the file \
+scatter picture are coloured by the peak-to-peak stroke. A histogram or a tornado picture shows the mean lift. If the file \
 does not have the default measures, flap draws other measures of the file. If a grid combines a sample with an axis, \
 flap draws only the rows at the middle value of the axis.
 

@@ -66,7 +66,8 @@ impl AddedMass<f64> {
     pub const NONE: AddedMass<f64> = AddedMass { f0: 0.0, f1: 0.0, f2: 0.0, a11: 0.0, a12: 0.0, a22: 0.0 };
 
     /// Returns the added mass in air of the given `density` (kg/m³). The added inertia about the pitch axis
-    /// includes the rotation about the mid-chord. The pitch axis is `axis` chords behind the leading edge.
+    /// includes the rotation about the mid-chord. The pitch axis lies behind the leading edge at the distance
+    /// `axis` times the chord.
     pub fn of(density: f64, axis: f64, integral: &ChordIntegral<'_>) -> AddedMass<f64> {
         let (mass, behind) = (FRAC_PI_4 * density, 0.5 - axis);
         AddedMass {
@@ -119,7 +120,8 @@ impl Circulation<f64> {
     pub const NONE: Circulation<f64> = Circulation { force: [0.0; 3], moment: [0.0; 2] };
 
     /// Returns the rotational circulation in air of the given `density` (kg/m³). The theoretical circulation
-    /// is multiplied by `factor`. The pitch axis is `axis` chords behind the leading edge.
+    /// is multiplied by `factor`. The pitch axis lies behind the leading edge at the distance `axis` times
+    /// the chord.
     pub fn of(factor: f64, density: f64, axis: f64, integral: &ChordIntegral<'_>) -> Circulation<f64> {
         if factor == 0.0 {
             return Circulation::NONE;
@@ -169,7 +171,7 @@ impl RotationalForce<f64> {
     pub const NONE: RotationalForce<f64> = RotationalForce { force: 0.0, moment: 0.0 };
 
     /// Returns the factors of the rotational drag for a drag `coefficient`, in air of the given `density`
-    /// (kg/m³). The pitch axis is `axis` chords behind the leading edge.
+    /// (kg/m³). The pitch axis lies behind the leading edge at the distance `axis` times the chord.
     pub fn of(
         coefficient: f64,
         density: f64,

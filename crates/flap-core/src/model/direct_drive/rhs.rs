@@ -131,7 +131,7 @@ fn form<R: Real>(factors: [R; 3], products: [R; 3]) -> R {
 /// ```
 ///
 /// When the flow past an element changes its direction, the velocity of the element is zero. The integrals
-/// therefore do not jump, and do not depend on the side of a switching surface.
+/// are therefore continuous: at a switching surface, they have the same value on both sides.
 #[inline(always)]
 fn blade_flow<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, [phi_dot, w]: [R; 2]) -> Pressure<R> {
     let sums = c.blades.sums(phi_dot, w);

@@ -144,8 +144,8 @@ fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, clearance: f64) -> (Rc<Tri
 }
 
 /// Starts at a point that exceeds some limits, and searches the point that exceeds the limits least. The
-/// search minimises the distance by which all limits must be moved so that the point satisfies the moved
-/// limits.
+/// search relaxes all limits by the same relative amount, and minimises this amount so that a point
+/// satisfies the relaxed limits.
 fn approach(points: &Evaluator<'_>, begin: &Rc<Trial>) -> Rc<Trial> {
     let problem = points.problem;
     let dimensions = begin.coordinates.len();
