@@ -60,8 +60,8 @@ pub fn strokes(edges: &[LeadingEdge]) -> Vec<f64> {
 /// ψ = arcsin(d/c_edge)
 /// ```
 ///
-/// The sign of the pitch is the sign of the distance: as in the models `bimorph` and `direct-drive`, the pitch is
-/// positive if the lower edge lags while the stroke rises. Eq. (42) specifies no sign.
+/// The sign of the pitch is the sign of the distance. As in the models `bimorph` and `direct-drive`, the pitch
+/// is positive if the lower edge lags while the stroke rises. Eq. (42) specifies no sign.
 ///
 /// # Errors
 /// An error if the distance is larger than the chord, or the chord is not a positive number.
