@@ -164,8 +164,8 @@ def _is_missing(name: str, value: Any) -> bool:
 
 
 def states(design: Design, initial_state: Any) -> np.ndarray[Any, np.dtype[np.float64]] | None:
-    """Return the initial states of a batch as an array: one row per point, and one column per component of the state.
-    Return None if no initial state is given, so that all motions begin at rest.
+    """Return the initial states of many points as an array: one row per point, and one column per component of the
+    state. Return None if no initial state is given, so that all motions begin at rest.
     """
     if initial_state is None:
         return None

@@ -157,7 +157,7 @@ def to_xarray(columns: Columns, axes: Axes, meta: Meta) -> xarray.Dataset:
 
 def _layout(columns: Columns, axes: Axes) -> tuple[list[str], list[int], np.ndarray[Any, Any]]:
     """Return the names and lengths of the dimensions of a Dataset. Also return, for each row of the table, the index of
-    its cell in the flattened array."""
+    its cell in the flattened arrays of the Dataset."""
     rows = len(next(iter(columns.values())).cells) if columns else 0
     if not axes:
         is_motion = next(iter(columns), None) == "time_s" and bool((np.diff(columns["time_s"].cells) > 0).all())

@@ -157,8 +157,8 @@ class Data:
         return len(np.unique(self.groups(names))) == len(self)
 
     def _several_rows(self, names: Sequence[str], left: Sequence[str]) -> ValueError:
-        """Return the error for several rows with the same values in all columns `names`. The names in `left` are the
-        axes that vary but are not shown in the picture.
+        """Return the ValueError for several rows with the same values in all columns `names`. The names in `left` are
+        the axes that vary but are not shown in the picture.
         """
         if not left:
             return ValueError(f"several rows have the same {' and '.join(f'`{name}`' for name in names)}")
@@ -405,9 +405,9 @@ def distinct(column: np.ndarray) -> np.ndarray:
 
 
 def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
-    """Return the edges of the cells of a picture, with one cell around each of the rising values. Each inner edge is
-    halfway between two neighbouring values. The first value is in the middle of the first cell, and the last value is
-    in the middle of the last cell.
+    """Return the edges of the cells of a picture, with one cell around each value. The values must be in rising order.
+    Each inner edge is halfway between two neighbouring values. The first value is in the middle of the first cell, and
+    the last value is in the middle of the last cell.
     """
     places = np.log(values) if log else np.asarray(values, dtype=float)
     if len(places) == 1:
@@ -420,8 +420,8 @@ def edges(values: np.ndarray, log: bool = False) -> np.ndarray:
 
 
 def scattered(name: str) -> ValueError:
-    """Return the error for a picture that requires an axis, if the given parameter belongs to a sample. The values of a
-    sampled parameter form no axis."""
+    """Return the ValueError for a picture that requires an axis, if the given parameter belongs to a sample. The values
+    of a sampled parameter form no axis."""
     return ValueError(f"`{name}` is sampled, so its values form no axis; draw such designs with plot.scatter")
 
 

@@ -33,7 +33,7 @@ def evaluate(
     return_states: bool = False,
     **keywords: Value,
 ) -> Table:
-    """Run many design points, given as columns of parameters.
+    """Simulate many design points, given as columns of parameters.
 
     Use `evaluate` in optimisers, samplers and fits. You give the parameters of all points as arrays. `evaluate` returns
     the measures of the points as arrays, in the order of the points. The points are computed in parallel, on all cores.
@@ -44,8 +44,8 @@ def evaluate(
     design : str, path, dict or Grid
         The design that all points start from: a preset, a model, or a grid (see `Grid`). For a model, give all
         parameters of the model. The tables ``[derived]``, ``[where]``, ``[measure]``, ``[solver]`` and ``[output]`` of
-        a grid apply to every point. If the grid has axes, all points of the axes are run for each row of `columns`, for
-        example all frequencies for each design.
+        a grid apply to every point. If the grid has axes, all points of the axes are computed for each row of
+        `columns`, for example all frequencies for each design.
     columns : dict, Table or DataFrame
         The parameters of n points, by name. The values of a parameter are an array, a Series or a range of n numbers in
         SI units. A list of texts with units, or a list of options, is accepted too. A single value of a parameter
@@ -62,8 +62,8 @@ def evaluate(
         Parameters with respect to which the measures of the settled motion are differentiated. `Table.gradient` has the
         derivatives, with the shape points × measures × parameters. The unit of a derivative is the unit of the
         measure's column per SI unit of the parameter. If you give `gradient`, the table ``[gradient]`` of a grid has no
-        effect. The derivatives with respect to one parameter take about as long as three drive periods of the
-        simulation.
+        effect. The computation of the derivatives with respect to one parameter takes about as long as the simulation
+        of three drive periods.
     initial_state : Table, dict or DataFrame, optional
         The state in which each motion begins, at the start of a drive period. The columns of `initial_state` are the
         components of the state (see `states`), with one row per point. Each column's name ends in the unit of the
@@ -140,7 +140,7 @@ def evaluate(
 
 def _columns_of_points(design: Design, columns: Any) -> dict[str, Any]:
     """Return the parameters of the points by name: arrays of float64, or lists of values that are not numbers. A single
-    value is repeated. The compiled module checks that the columns have equal lengths.
+    value is repeated for every point. The compiled module checks that the columns have equal lengths.
     """
     lists: dict[str, Any] = {}
     constants: dict[str, Any] = {}

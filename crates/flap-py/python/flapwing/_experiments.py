@@ -90,7 +90,7 @@ def impulse(
         would cause in an undamped motion of only the first mode. The impulse must not be zero, and the magnitude of the
         impulse is at most 180 degrees. The default of `amplitude` is ``"20 deg"``.
     duration : float or str, optional
-        Length of the motion (s, or text with a unit): more than 0. The default of `duration` is ten periods of the
+        Duration of the motion (s, or text with a unit): more than 0. The default of `duration` is ten periods of the
         first mode.
     samples : int, optional
         Smallest number of samples that the table has per period of the first mode. The default of `samples` is 200
@@ -148,8 +148,8 @@ def forces_along(
         are `time_s` (or `time_ms`), `stroke_deg` (or `stroke_rad`) and `pitch_deg` (or `pitch_rad`). Tables of
         `track_wing` and `trajectory` have the required columns. The motion has at least four samples at rising times.
     periodic : bool, optional
-        True if the given motion is one period. If `periodic` is true, the last sample of the given motion is also the
-        first sample of the next period.
+        True if the given motion is one period of a periodic motion. If `periodic` is true, the last sample of the given
+        motion is also the first sample of the next period.
     samples : int, optional
         Number of equal time intervals into which the given motion is divided. Forces are computed at the ends of the
         intervals. The default of `samples` is 2000 intervals.
@@ -193,10 +193,11 @@ def forces_along(
 def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Table:
     """Compute stroke and pitch of a filmed wing from points that were tracked in the images of the film.
 
-    The stroke is the angle from the x-axis to the leading edge, without jumps by 360°. The pitch is computed from the
-    length of the chord in the image. The pitch is positive if the lower edge lags while the stroke rises, so for the
-    model `four-bar`, multiply the pitch by -1. The centre of the stroke's rotation is the point nearest to the lines
-    through all leading edges (Ozaki and Hamaguchi 2018, eqs. 42 and 43).
+    The stroke is the angle from the x-axis of the image to the leading edge, without jumps by 360°. The pitch is
+    computed from the length of the chord in the image. The pitch is positive if the lower edge lags while the stroke
+    rises. In the model `four-bar`, the pitch has the opposite sign, so multiply the pitch by -1 for this model. The
+    centre of the stroke's rotation is the point nearest to the lines through all leading edges (Ozaki and Hamaguchi
+    2018, eqs. 42 and 43).
 
     Parameters
     ----------

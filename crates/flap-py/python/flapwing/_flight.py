@@ -32,13 +32,13 @@ def fly(
 ) -> Table:
     """Simulate the flight of a vehicle: the coupled motion of wings and body, with or without a controller.
 
-    At the beginning of the flight, the motion of the wings has settled. The wings respond to velocity and rates of the
-    body, but not to the acceleration of the body. The inertial forces of the wings do not act on the body, because the
-    wings are light. The argument `about` of `Vehicle` must be the centre of mass. The flight requires `total_mass` and
-    the parameters `body_inertia_roll`, `body_inertia_pitch` and `body_inertia_yaw`.
+    At the beginning of the flight, the motion of the wings has settled. The wings respond to the velocity and the
+    angular rates of the body, but not to the acceleration of the body. The inertial forces of the wings do not act on
+    the body, because the wings are light. The argument `about` of `Vehicle` must be the centre of mass. The flight
+    requires `total_mass` and the parameters `body_inertia_roll`, `body_inertia_pitch` and `body_inertia_yaw`.
 
-    A controller changes the inputs at the beginning of each wing beat by ``-gains @ x``. The vector x has nine states:
-    the means of the body's velocities, rates and angles over the last wing beat.
+    At the beginning of each wing beat, a controller sets the inputs to their initial values minus ``gains @ x``. The
+    vector x has nine states: the means of the body's velocities, angular rates and angles over the last wing beat.
 
     If the simulation cannot continue, the table ends early and a UserWarning gives the reason. For example, the table
     ends early if an input leaves its range.
@@ -58,7 +58,7 @@ def fly(
         controller.
     inputs : sequence of str, optional
         Names of the inputs: parameters, or the names such as ``"amplitude_difference"`` that `Vehicle.linear` accepts.
-        If `gains` is given, `inputs` is required. The table has a column with the values of each input.
+        If `gains` is given, `inputs` is required. The table has one column of values for each input.
     averaged : bool, optional
         If True, the linear model about hover is solved exactly, without the error of a numerical integration. By
         default, the coupled motion of wings and body is simulated.
@@ -79,9 +79,9 @@ def fly(
     Table
         One row for each wing beat, with the time at the middle of the wing beat. The columns of the table are `time_s`,
         the states including the position, the inputs in SI units, and the force and torque of the air. Velocities and
-        rates are in body axes, and the position is in fixed axes. The attitude results from rotations by the yaw angle,
-        then by the pitch angle, then by the roll angle. The attribute `meta` of the table also contains the argument
-        `disturbance`.
+        angular rates are in body axes, and the position is in fixed axes. The attitude results from rotations about the
+        body axes: by the yaw angle, then by the pitch angle, then by the roll angle. The attribute `meta` of the table
+        also contains the argument `disturbance`.
 
     Raises
     ------

@@ -42,7 +42,8 @@ def label(name: str, unit: str | None = None) -> str:
     name : str
         The column's name.
     unit : str, optional
-        The unit of the column, as in `Table.units`. The default of `unit` is the unit at the end of the name.
+        The unit of the column, as in `Table.units`. The default of `unit` is the unit at the end of the name of the
+        column.
 
     Returns
     -------

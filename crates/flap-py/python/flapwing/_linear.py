@@ -39,8 +39,8 @@ class LinearModel:
         Description of the motion of each eigenvalue's mode, such as ``"pitch and forward velocity (longitudinal
         oscillation)"``.
     states, state_units : list of str
-        Names and units of the states: velocities, rates and angles. With ``positions=True``, the states include the
-        position.
+        Names and units of the states: velocities, angular rates and angles. With ``positions=True``, the states include
+        the position.
     inputs, input_units : list of str
         Names and units of the inputs.
     input_values : array

@@ -48,7 +48,7 @@ def measures(design: Design, /) -> dict[str, Measure]:
     Returns
     -------
     dict of str to Measure
-        Measures by column, in the order of the rows.
+        The measures by the names of their columns, in the order of the columns.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def states(design: Design, /) -> dict[str, State]:
     Returns
     -------
     dict of str to State
-        States by component, in the order of the state vector.
+        The states by name, in the order of the state vector.
 
     Raises
     ------

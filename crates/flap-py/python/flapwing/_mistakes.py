@@ -13,7 +13,7 @@ _LISTED = 12
 
 
 class UnknownName(KeyError, ValueError):
-    """The error for an unknown name. You can catch an `UnknownName` error as a KeyError or as a ValueError."""
+    """The exception for an unknown name. You can catch an `UnknownName` error as a KeyError or as a ValueError."""
 
     def __str__(self) -> str:
         # Without this, a KeyError shows its message in quotes on one line.
@@ -21,8 +21,8 @@ class UnknownName(KeyError, ValueError):
 
 
 def unknown(kind: str, name: object, known: Iterable[str]) -> UnknownName:
-    """Return the error for a `name` that is not in `known`. The error message has the most similar known name and the
-    first few known names.
+    """Return the exception for a `name` that is not in `known`. The error message has the most similar known name and
+    the first few known names.
     """
     names = list(known)
     near = difflib.get_close_matches(str(name), names, n=1)

@@ -32,7 +32,8 @@ def run(
     symmetry: bool | None = None,
     **parameters: Value,
 ) -> Row:
-    """Run one design point until the motion repeats every drive period, and compute the measures of one drive period.
+    """Simulate one design point until the motion repeats every drive period, and compute the measures of one drive
+    period.
 
     Keyword arguments replace the values of parameters of the design::
 
@@ -69,8 +70,8 @@ def run(
         If True, a progress bar is shown, as for `sweep`. The progress bar advances only once, at the end of the
         computation.
     client : executor, optional
-        An executor, such as a process pool (see `sweep`). The point runs on one of the workers of the executor. The
-        argument `client` does not change the result.
+        An executor, such as a process pool (see `sweep`). The point is computed on one of the workers of the executor.
+        The argument `client` does not change the result.
     rtol : float, optional
         Relative tolerance of the integrator, per step and state: more than 0 and less than 0.1. The default of `rtol`
         is 1e-6.
@@ -261,7 +262,7 @@ def resonance(
         would cause in an undamped motion of only the first mode. The impulse must not be zero, and the magnitude of the
         impulse is at most 180 degrees. The default of `impulse` is ``"20 deg"``.
     fit_cycles : int, optional
-        Length of the free motion to which a damped sine is fitted, in periods of the first mode. The default of
+        Duration of the free motion to which a damped sine is fitted, in periods of the first mode. The default of
         `fit_cycles` is 4 periods.
     spectrum_window : float or str, optional
         Duration (s, or text with a unit) of the free motion from which the spectrum is computed. The default of

@@ -32,8 +32,8 @@ def respond(
     The first point of each branch (rising or falling parameter) starts at rest. Each later point starts from the
     settled motion of the previous point. If the motions of the rising and of the falling branch differ, the design is
     bistable. A step of the parameter is halved if a bistable band ends within the step. A step is also halved if a
-    component of the state changes by more than a tenth of the largest value of the component. A steep step could
-    contain a narrow bistable band.
+    component of the state changes by more than a tenth of the largest value of the component. If the state changes much
+    within a step, the step could contain a narrow bistable band.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def respond(
         By default, `start`, `stop` and `step` are taken from the axis of `parameter` in the grid.
     tolerance : float or str, optional
         Longest allowed step of the parameter that rises and falls, at the ends of bistable bands and where the response
-        is steep. The default of `tolerance` is a sixteenth of the shortest step.
+        is steep. The default of `tolerance` is a sixteenth of the shortest step between the values of the parameter.
     unstable : bool, optional
         If True, the branches are continued around the ends of bistable bands, and the table also has the unstable
         orbits between the branches.
@@ -136,7 +136,7 @@ def edges(
 
     For each design, flap first computes the response to the parameter `first`, in the same way as `respond`. Each end
     of a bistable band in the response is continued through the plane of the parameters `first` and `second`. A cusp is
-    a point at which hysteresis begins.
+    a point of the plane at which hysteresis begins, because the two ends of a bistable band meet.
 
     Parameters
     ----------
@@ -150,9 +150,9 @@ def edges(
     edge_start, edge_stop : float or str
         Smallest and largest value of the second parameter: numbers in SI units, or text with units.
     edge_step : float or str, optional
-        Step of the second parameter. With `edge_step`, the table has only points with a mark, the ends of edges, and
-        points at multiples of the step, counted from `edge_start`. Without `edge_step`, the table has all computed
-        points.
+        Step of the second parameter. With `edge_step`, the table has only points with a text in the column `mark`, the
+        ends of edges, and points at multiples of the step, counted from `edge_start`. Without `edge_step`, the table
+        has all computed points.
     start, stop, step : float or str, optional
         First value, last value and step of the first parameter, as for `respond`. By default, `start`, `stop` and
         `step` are taken from the axis of the first parameter in the grid.
@@ -177,9 +177,9 @@ def edges(
     Raises
     ------
     ValueError
-        Raised if a preset, parameter, option or unit is unknown. Raised if the range has no steps, or the design's
-        value of the second parameter is not between `edge_start` and `edge_stop`. A grid with mistakes raises
-        GridError.
+        Raised if a preset, parameter, option or unit is unknown. Raised if the range from `start` to `stop` has no
+        steps, or the design's value of the second parameter is not between `edge_start` and `edge_stop`. A grid with
+        mistakes raises GridError.
     TypeError
         Raised if a value has the wrong type.
 

@@ -269,8 +269,8 @@ class Resonances(_Result):
     driven : list of DrivenPeak
         Peaks of the settled stroke as a function of the drive frequency, with the highest peak first.
     larger_at_hz : float
-        The end of the frequency range (Hz), if the stroke at this end is larger than the stroke at all peaks.
-        `larger_at_hz` is nan if the stroke is largest at a peak.
+        The end of the frequency range (Hz) at which the stroke is larger than the stroke at all peaks. `larger_at_hz`
+        is nan if the stroke is largest at a peak.
     gaps : list of FrequencyGap
         Ranges of drive frequencies without a periodic motion.
     """

@@ -36,10 +36,10 @@ def hover_eigenvalues(
     """Return the eigenvalues of the linear model about hover, for each row of a sweep of vehicles with ``damping =
     true``.
 
-    The states are velocities, rates, roll angle and pitch angle. The reference point of the torques must be the centre
-    of mass. `hover_eigenvalues` does not trim the rows. The eigenvalues are correct for rows that hover, such as rows
-    with ``trim = "hover"``. For rows near hover, the eigenvalues are an estimate. `Vehicle.linear` trims one design and
-    describes the modes.
+    The states are velocities, angular rates, roll angle and pitch angle. The reference point of the torques must be the
+    centre of mass. `hover_eigenvalues` does not trim the rows. The eigenvalues are correct for rows that hover, such as
+    rows with ``trim = "hover"``. For rows near hover, the eigenvalues are an estimate. `Vehicle.linear` trims one
+    design and describes the modes.
 
     Parameters
     ----------

@@ -27,20 +27,20 @@ def sweep(
     measures: Measures | None = None,
     **keywords: Value,
 ) -> Table:
-    """Run every point of a grid and return the rows.
+    """Simulate every point of a grid and return the rows.
 
     Parameters
     ----------
     design : str, path, dict or Grid
-        The grid whose points are run (see `Grid`). A preset counts as a grid with one point. The table ``[output]`` of
-        the grid chooses the columns, but the entry `path` of ``[output]`` is not used.
+        The grid whose points are computed (see `Grid`). A preset counts as a grid with one point. The table
+        ``[output]`` of the grid chooses the columns, but the entry `path` of ``[output]`` is not used.
     out : path, optional
-        File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. The sweep writes each row to the file as soon as
-        possible. For the same grid, the command ``flap sweep --out`` writes a file with the same bytes as the function
-        `sweep`. The sidecar, which is a file in the folder of `out`, records the origin of the rows. If `out` has
-        unfinished results of the grid, the sweep continues after the last row. If `out` already has all rows, no point
-        is computed. If `out` has anything except results of the grid, the sweep raises an error. By default, rows are
-        kept in memory, with about half a kilobyte for each row.
+        File for the rows: ``.csv``, ``.csv.zst`` or ``.parquet``. The sweep writes each row to the file `out` as soon
+        as possible. For the same grid, the command ``flap sweep --out`` writes a file with the same bytes as the
+        function `sweep`. The sidecar, which is a file in the folder of `out`, records the origin of the rows. If `out`
+        has unfinished results of the grid, the sweep continues after the last row in `out`. If `out` already has all
+        rows, no point is computed. If `out` has anything except results of the grid, the sweep raises an error. By
+        default, rows are kept in memory, with about half a kilobyte for each row.
     restart : bool, optional
         If True, the sweep computes all rows again, and replaces the results in `out` when the new results are complete.
     threads : int, optional
@@ -51,14 +51,14 @@ def sweep(
         If True, a progress bar (tqdm) is shown in consoles and notebooks. A progress function is called with two
         numbers: the number of finished points, and the number of all points.
     client : executor, optional
-        Run the points on the workers of an executor: any object whose ``submit(function, *arguments)`` returns a future
-        with the method `result`. For example, `client` can be an executor of `concurrent.futures`, submitit or mpi4py,
-        or the client of a Dask cluster. The workers must have the same build of flapwing. The argument `client` changes
-        neither the order nor the bytes of the rows. If a worker of a Dask cluster dies, other workers run the points of
-        the lost worker again. If the executor is not a Dask cluster, a lost worker raises an error. A worker whose
-        processor rounds numbers differently from this machine's processor also raises an error, because the last bits
-        of the rows could differ. The points that ``[refine]`` adds to a grid are computed in the process that calls
-        `sweep`.
+        Compute the points on the workers of an executor: any object whose ``submit(function, *arguments)`` returns a
+        future with the method `result`. For example, `client` can be an executor of `concurrent.futures`, submitit or
+        mpi4py, or the client of a Dask cluster. The workers must have the same build of flapwing. The argument `client`
+        changes neither the order nor the bytes of the rows. If a worker of a Dask cluster dies, other workers compute
+        the points of the lost worker again. If the executor is not a Dask cluster, a lost worker raises an error. A
+        worker whose processor rounds numbers differently from this machine's processor also raises an error, because
+        the last bits of the rows could differ. The points that ``[refine]`` adds to a grid are computed in the process
+        that calls `sweep`.
     points_per_task : int, optional
         Number of points in a task of `client`, 1 or more. The default of `points_per_task` is at most 2,048 points for
         each thread of a task. A task of the default size takes a few seconds. If each task is a job of a queue, set a

@@ -139,8 +139,8 @@ class Vehicle(_Entries):
         at hover. The rows also have two columns about the fastest-growing mode of motion about hover: the growth rate
         and the period of this mode. `trim` requires `total_mass`.
     damping : bool
-        If True, rows also have the 36 derivatives of mean force and torque with respect to the velocity and the rates
-        of the body.
+        If True, rows also have the 36 derivatives of mean force and torque with respect to the velocity and the angular
+        rates of the body.
 
     Raises
     ------

@@ -49,8 +49,8 @@ def _call_task(
 
 
 def _aligned(columns: Mapping[str, Any]) -> dict[str, Any]:
-    """Return columns whose arrays are aligned, as the compiled module requires. An array that Dask has transferred can
-    begin at any byte.
+    """Return columns whose arrays are aligned in memory, as the compiled module requires. An array that Dask has
+    transferred can begin at any byte.
     """
     return {
         name: np.require(values, requirements=["C", "A"]) if isinstance(values, np.ndarray) else values
@@ -194,8 +194,8 @@ def _columns(parts: list[dict[str, Any]]) -> dict[str, Column]:
 
 
 def _column(parts: list[Column]) -> Column:
-    """Join the cells of a column in all responses to one column. The responses can have different lists of words for a
-    column of text."""
+    """Join the columns with the same name in all responses to one column. The responses can have different lists of
+    words for a column of text."""
     cells = [one.cells for one in parts]
     if parts[0].words is None:
         return parts[0]._replace(cells=np.concatenate(cells))

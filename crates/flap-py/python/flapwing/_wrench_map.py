@@ -20,9 +20,9 @@ class WrenchMap:
     """A quadratic map from the inputs of a vehicle to the vehicle's mean force and mean torque. `wrench_map` returns a
     `WrenchMap`.
 
-    With m inputs, each component has ``1 + m + m * (m + 1) / 2`` coefficients: 15 for four inputs. With two inputs, the
-    order of the terms is ``1, s1, s2, s1*s1, s1*s2, s2*s2``, where s1 and s2 are inputs scaled from -1 to 1 over the
-    range.
+    With m inputs, each force or torque has ``1 + m + m * (m + 1) / 2`` coefficients: 15 for four inputs. With two
+    inputs, the order of the terms is ``1, s1, s2, s1*s1, s1*s2, s2*s2``. In these terms, s1 and s2 are the inputs,
+    scaled from -1 to 1 over the range of each input.
 
     Attributes
     ----------

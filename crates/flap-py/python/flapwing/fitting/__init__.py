@@ -6,7 +6,7 @@ parts of a `Fit`, or results of `compare` and `select`.
 - `_names`, `_cells`, `_noise`: read the names, the cells and the standard errors in columns of readings
 - `_data`, `_held`: convert readings to the units of the model, and choose the readings that are held out of the fit
 - `_typical`, `_parameters`: bounds from typical sizes, free parameters, and the coordinates in which a fit searches
-- `_model`, `_branches`: compute the values that the model predicts for the readings, also on branches of hysteresis
+- `_model`, `_branches`: compute the predictions of the readings, and the motions on branches of hysteresis
 - `_search`: minimise the sum of squares by several searches at the same time
 - `_intervals`: confidence intervals by the profile likelihood, and combinations of parameters that the data determine
 - `_structure`, `_discrepancy`, `_drift`: patterns in residuals, discrepancy of the model, disagreement of data sets

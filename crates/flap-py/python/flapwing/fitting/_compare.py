@@ -33,8 +33,9 @@ class ComparedFit:
     name : str
         The name of the fit.
     parameters : int
-        Number of free parameters, or combinations of free parameters, that the readings and priors determine. Each
-        measure whose standard error was estimated from the residuals adds 1 to `parameters`.
+        Number of free parameters, or, if the readings and priors determine only some combinations of the free
+        parameters, the number of these combinations. Each measure whose standard error was estimated from the residuals
+        adds 1 to `parameters`.
     chi_square : float
         Chi-square: the sum of the squares of (residual / standard error) over all readings. Chi-square includes the
         residuals of the priors. If standard errors were estimated from the residuals, chi-square does not show the

@@ -85,10 +85,10 @@ def of_residuals(
     corrects for the absorbed part, as in a restricted maximum likelihood.
 
     `measures` contains the indices of the fitted readings of each measure, and `structured` contains the measures whose
-    residuals have a pattern. Standard errors of the kind ``"unknown"`` are estimated from the residuals, so they
-    contain the discrepancy. If standard errors are unknown and the residuals have a pattern, the whole estimated
-    standard error counts as discrepancy. `inverse` is the covariance that the search coordinates have without a
-    discrepancy.
+    residuals have a pattern. Standard errors of the kind ``"unknown"`` are estimated from the residuals, so these
+    standard errors contain the discrepancy. If standard errors are unknown and the residuals have a pattern, the whole
+    estimated standard error counts as discrepancy. `inverse` is the covariance that the search coordinates have without
+    a discrepancy.
     """
     base = np.ones(len(scaled))
     spread = np.zeros_like(inverse)

@@ -298,7 +298,7 @@ def check_options(loss: Any, starts: Any, seed: Any) -> None:
 
 def _check_count(model: Model, held: Mask) -> None:
     """Raise ValueError if the number of readings and priors is not larger than the number of free parameters. A
-    separate parameter of a held-out data set does not count as a free parameter, unless it has a prior.
+    separate parameter of a held-out data set does not count as a free parameter, unless the parameter has a prior.
     """
     readings, fitted = int((~held).sum()), [None, *model.outputs.of_set[~held]]
     priors = model.space.prior(np.zeros(len(model.space)))[1]

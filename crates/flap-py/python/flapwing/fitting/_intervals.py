@@ -197,8 +197,8 @@ _SHARE = 0.05
 
 
 def indistinct(model: Model, target: Target, at_estimate: Array, seed: int) -> list[str]:
-    """Return a sentence for each combined change of parameters that changes no reading, for all values of the
-    parameters. `at_estimate` contains the derivatives of the residuals at the estimate.
+    """Return a sentence for each combined change of parameters that, at all values of the parameters, changes no
+    predicted reading. `at_estimate` contains the derivatives of the residuals at the estimate.
 
     The derivatives of the readings are computed at several random sets of parameters. If the derivatives have a null
     space at each set, the measured quantities at the operating points of the data cannot determine all parameters. If

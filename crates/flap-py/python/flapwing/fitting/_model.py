@@ -36,7 +36,7 @@ _KEPT = 16
 
 @dataclass(frozen=True)
 class Outputs:
-    """A list of the values that the model computes. Each entry is a measure at an operating point."""
+    """A list of the values that the model computes. Each entry is the value of a measure at an operating point."""
 
     #: The index of the data set of each output, because parameters can differ between data sets.
     of_set: Places

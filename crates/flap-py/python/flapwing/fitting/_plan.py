@@ -28,14 +28,14 @@ class NextMeasurements:
     target, unit : str
         The parameter or measure whose standard error is reduced, and the unit of the standard error.
     now : float
-        The standard error of the target before the new readings.
+        The standard error of the target (the parameter or the prediction) before the new readings.
     points : list of dict
         The operating points: values of parameters, in SI units.
     measures : list of str
         The measure of the new reading at each point.
     errors : list of float
-        The standard errors of the target. The entry of a point is the standard error after the readings at this point
-        and at all earlier points in the list.
+        The standard errors of the target (the parameter or the prediction). The entry of a point is the standard error
+        after the readings at this point and at all earlier points in the list.
     """
 
     target: str
@@ -72,12 +72,13 @@ def plan(
     errors_of: Callable[[str, Array], Array],
 ) -> tuple[list[int], list[str], list[float], float]:
     """Return proposals for new readings, with the best reading first: the rows of `points`, and the measures. Also
-    return the standard error of the target after each reading, and before the first reading. New readings have the
-    parameters and the branch of the data set `like`, whose index is `place`.
+    return the standard error of the target (a parameter or a prediction) after each reading, and before the first
+    reading. New readings have the parameters and the branch of the data set `like`, whose index is `place`.
 
     To add a reading, the outer product of the reading's derivatives, divided by the reading's variance, is added to the
-    information matrix. In each step, the function chooses the reading after which the variance of the target is
-    smallest. `errors_of` computes the standard errors of readings from a measure and its predicted values.
+    information matrix. In each step, the function chooses the reading after which the variance of the target parameter
+    or prediction is smallest. `errors_of` computes the standard errors of readings from a measure and its predicted
+    values.
     """
     rows, names, sensitivities = [], [], []
     for measure in measures:

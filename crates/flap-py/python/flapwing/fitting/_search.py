@@ -254,7 +254,8 @@ _CURVATURE = 0.1
 
 
 def robust_factors(residuals: Array, loss: str, freedom: float) -> tuple[float, float]:
-    """Return the curvature of the cost and the variance of the estimates, divided by their values for the linear loss.
+    """Return the curvature of the cost and the variance of the estimates, each divided by its value for the linear
+    loss.
 
     The variance is the variance of an M-estimator, E[psi^2] / E[psi']^2 (Huber and Ronchetti 2009, chapter 7). The
     curvature is E[psi']. In the formulas, psi is the derivative of half of the loss with respect to the residual.

@@ -33,7 +33,7 @@ class SelectionStep:
         parameter.
     removed : str
         The parameter that becomes fixed at the design's value in this step, because parameters that became free later
-        make it unnecessary. `removed` is empty in most steps.
+        make the fixed parameter unnecessary. `removed` is empty in most steps.
     parameters : list of str
         All free parameters after this step of the selection.
     chi_square : float
@@ -199,8 +199,8 @@ def select(
     significance : float
         Limit of the probability that noise alone explains the improvement by a step. If the probability is above
         `significance`, the selection ends. The probability accounts for the choice of the best among all candidate
-        parameters (Bonferroni correction). With ``significance=1``, only the criterion ends the selection, so that too
-        many parameters become free.
+        parameters (Bonferroni correction). With ``significance=1``, only the criterion ends the selection, and
+        therefore too many parameters become free.
     tries : int
         Largest number of candidate parameters for which a step runs a fit. Candidates with the same predicted effect on
         the readings count as one candidate.

@@ -115,8 +115,8 @@ class Effort:
     starts : int
         Number of searches.
     agreed : int
-        Number of searches that ended at the best fit. `agreed` is 0 if no search found the best fit, but the
-        computation of a profile likelihood did.
+        Number of searches that ended at the best fit. `agreed` is 0 if the computation of a profile likelihood found a
+        better fit than all searches.
     points : int
         Number of simulated points.
     rhs_evals : int

@@ -103,7 +103,7 @@ def _lowest(tried: Array, deviances: Array) -> float:
 
 def _deviances(space: Space, group: Group, target: Target, x: Array, answer: Answer) -> tuple[Array, Array]:
     """Return a list of possible standard deviations of a parameter between data sets. Also return the deviance for each
-    standard deviation, which is minus two times the log likelihood.
+    standard deviation. The deviance is minus two times the log likelihood.
 
     The likelihood is integrated over all free parameters and over the mean of the values (restricted maximum
     likelihood). The integral approximates the residuals by linear functions of the parameters.

@@ -47,10 +47,11 @@ def control_matrix(
     """Draw the control matrix of a vehicle as a map: the derivative of each mean force and torque with respect to each
     input.
 
-    Each column of the map is an input, and each row is a component of force or torque. The number in a cell of the map
-    is the change of the force or torque per unit of the input. In each column, the strongest colour shows the force or
-    torque that the input changes most. For the colours, a torque of 1 µN·m counts as much as a force of 1 mN. The
-    picture shows ``≈0`` for a number below 0.1 % of the largest number in the same column.
+    Each column of the map shows the effects of one input, and each row shows the effects on one component of force or
+    torque. The number in a cell of the map is the change of the force or torque per unit of the input. In each column,
+    the strongest colour shows the force or torque that the input changes most. For the colours, a torque of 1 µN·m
+    counts as much as a force of 1 mN. The picture shows ``≈0`` for a number below 0.1 % of the largest number in the
+    same column.
 
     Parameters
     ----------

@@ -89,8 +89,8 @@ def style(
     ----------
     width, height : float or str, optional
         Size of a figure: numbers in inches, or text such as ``"3.3 in"``, ``"84 mm"`` or ``"8.4 cm"``. The default of
-        the width is 6.4 inches. The default of the height is 1 inch plus 0.42 times the width. If a figure has several
-        axes below each other, the figure is higher. If you give neither `width` nor `height`, flap's functions use
+        the width is 6.4 inches. The default of the height is 1 inch plus 0.42 times the width. A figure with several
+        axes below each other is higher than `height`. If you give neither `width` nor `height`, flap's functions use
         their default sizes.
     font_size : float, optional
         Size of the letters (points). If the letters are smaller than 9.5 points, lines are thinner and markers are

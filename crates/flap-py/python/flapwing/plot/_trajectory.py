@@ -257,7 +257,7 @@ def _rate(data: Data, name: str, t: np.ndarray, shown: Shown) -> tuple[np.ndarra
 def _common(words: list[str], unit: str) -> str:
     """Return the label of a vertical axis that shows several columns. If the unit is degrees, the label is "Angle". For
     two columns, the label consists of the names of the two columns. For more than two columns, the label is the last
-    word of all names, or "Value" if the last words differ.
+    word that all names have in common, or "Value" if the last words differ.
     """
     if unit == "°":
         return "Angle"
@@ -268,7 +268,7 @@ def _common(words: list[str], unit: str) -> str:
 
 
 def _direction(ax: Axes, x: np.ndarray, y: np.ndarray, colour: str) -> None:
-    """Draw an arrow that shows the direction of a phase portrait's curve, at a twelfth of the samples."""
+    """Draw an arrow that shows the direction of a phase portrait's curve, after the first twelfth of the samples."""
     i = max(1, len(x) // 12)
     if i + 1 < len(x):
         ax.annotate(
