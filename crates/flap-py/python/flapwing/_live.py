@@ -39,7 +39,8 @@ class Live:
     Attributes
     ----------
     address : str
-        The address of the page, with a secret token. Everybody who has the address can request rows from the server.
+        The address of the page, with a secret token. Everybody who has the address can request rows of results from the
+        server.
     """
 
     def __init__(self, server: _flapwing.LiveServer) -> None:

@@ -322,7 +322,7 @@ class ConditionValue(_Result):
     Attributes
     ----------
     text : str
-        The comparison of the condition, or the name of a condition in the grid.
+        The text of a comparison such as ``stroke_pp_deg < 90``, or the name of a condition in the grid.
     smaller, larger : float
         The values of the two sides of the comparison: first the side that must be smaller, then the side that must be
         larger.
@@ -397,8 +397,8 @@ class Optimum(_Result):
         True if a pattern search followed the search with derivatives, because derivatives were missing or misled the
         search.
     device : str
-        The best design as the text of a device file, which you can write to a file or give to `run`. For a vehicle,
-        `device` is ``""``.
+        The text of a device file that contains the best design. You can write the text to a file or give the text to
+        `run`. For a vehicle, `device` is ``""``.
     """
 
     status: str

@@ -127,7 +127,7 @@ class Chunks:
 def grid_chunks(
     grid: Grid, client: Executor, threads: SupportsIndex | None, points_per_task: SupportsIndex | None
 ) -> Chunks:
-    """Return an object that supplies the rows of a grid, which workers compute."""
+    """Return an object that supplies the rows of a grid. Workers compute the rows."""
     # Workers resolve the files of the grid to the same absolute paths as this process.
     name, text = os.path.abspath(grid.name), grid.text
     threads = 1 if threads is None else threads
@@ -152,8 +152,8 @@ def batch_chunks(
     threads: SupportsIndex | None,
     points_per_task: SupportsIndex | None,
 ) -> Chunks:
-    """Return an object that supplies the rows of the points in `columns`, which workers compute. Each task contains all
-    points of some rows of `columns`."""
+    """Return an object that supplies the rows of the points in `columns`. Workers compute the rows. Each task contains
+    all points of some rows of `columns`."""
     rows = len(next(iter(columns.values())))
     per_row = max(1, len(batch) // max(1, rows))
     design, states = _portable(design), options["initial_state"]

@@ -49,7 +49,7 @@ class Discrepancy:
 
 @dataclass(frozen=True)
 class Discrepancies:
-    """The discrepancies of all measures, and the covariance of the search coordinates that accounts for the
+    """The discrepancies of all measures, and the covariance of the search coordinates, including the effect of the
     discrepancies."""
 
     listed: list[Discrepancy]

@@ -24,7 +24,7 @@ _WORTH = 0.5
 
 @dataclass(frozen=True)
 class SelectionStep:
-    """One step of a selection, which makes a parameter free or fixes a parameter, and fits all free parameters.
+    """One step of a selection. The step makes a parameter free or fixes a parameter, and fits all free parameters.
 
     Attributes
     ----------

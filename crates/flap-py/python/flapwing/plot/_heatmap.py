@@ -72,10 +72,10 @@ def heatmap(
     value : str, optional
         The measure to draw. The default of `value` is the mean lift.
     x, y : str, optional
-        The parameters on the horizontal and on the vertical axis, whose values are numbers or words. The default of `x`
-        is ``drive_frequency``. If ``drive_frequency`` does not vary, the default of `x` is the last axis of the grid.
-        The default of `y` is the first axis of the grid that is not on the horizontal axis. If the grid has fewer than
-        two axes, flap chooses parameters of the sample.
+        The parameters on the horizontal and on the vertical axis. The values of a parameter are numbers or words. The
+        default of `x` is ``drive_frequency``. If ``drive_frequency`` does not vary, the default of `x` is the last axis
+        of the grid. The default of `y` is the first axis of the grid that is not on the horizontal axis. If the grid
+        has fewer than two axes, flap chooses parameters of the sample.
     xscale, yscale : {"linear", "log"}, optional
         The scales of the axes. By default, an axis is logarithmic if its values have a constant ratio and span a factor
         of ten or more. If the points do not form a grid, the default scale is linear.
@@ -167,7 +167,7 @@ def heatmap(
 
 def _reduced(data: Data, names: Sequence[str], value: str, how: str) -> Data:
     """Return one row for each combination of values in the columns `names`. The returned row contains the largest
-    value, the smallest value or the mean of all rows with the same combination.
+    value, the smallest value or the mean of all rows with the same combination of values.
     """
     groups = data.groups(names)
     values = np.where(data.measured(), data.numbers(value), np.nan)

@@ -1,4 +1,4 @@
-"""A picture of designs as points in the plane of two measures, whose colours show a third measure."""
+"""A picture of designs as points in the plane of two measures. The colours of the points show a third measure."""
 
 from __future__ import annotations
 

@@ -304,7 +304,7 @@ def _shorten(label: Any, side: str, room: float) -> None:
 
 
 def _fit_labels(figure: Figure) -> None:
-    """Shorten each label that is longer than the room that the figure has for the axes of the label."""
+    """Divide or shrink each axis label that is longer than the space for this label in the figure."""
     figure.draw_without_rendering()
     for ax in figure.axes:
         place = ax.get_subplotspec()
