@@ -86,9 +86,9 @@ impl Table {
     /// Returns the table as text, with two blanks between columns. Without a `width`, each row is one line.
     /// With a `width`, lines have at most `width` characters.
     ///
-    /// With a `width`, the cells of the last column are wrapped. If the columns still do not fit, the columns
-    /// are split into several tables, from top to bottom. Each part of a split table begins with the first
-    /// column, or with the number of columns that [`Table::with_keys`] sets.
+    /// With a `width`, the cells of the last column are wrapped. If the columns still do not fit, flap
+    /// splits the table into several tables, one below the other. Each part of a split table begins with the
+    /// first column, or with the number of columns that [`Table::with_keys`] sets.
     pub(crate) fn text_within(&self, width: Option<usize>) -> String {
         let widths = self.widths();
         let parts = width.map_or_else(Vec::new, |width| parts(&widths, self.keys.max(1), width));

@@ -39,7 +39,8 @@ pub(crate) struct ChangeArgs {
 }
 
 impl ChangeArgs {
-    /// Returns the command-line option, the parameter and the value of each change.
+    /// For each change on the command line, returns the name of the option (`--set` or `--each`), the
+    /// parameter, and the new value.
     pub(crate) fn all(&self) -> impl Iterator<Item = (&'static str, &str, &str)> {
         let set = self.set.iter().map(|(name, value)| ("--set", name.as_str(), value.as_str()));
         set.chain(self.each.iter().map(|(name, value)| ("--each", name.as_str(), value.as_str())))

@@ -14,8 +14,8 @@ pub(crate) struct PlotArgs {
     #[arg(value_name = "FILE")]
     pub(crate) results: PathBuf,
 
-    /// File for the picture. The ending of the name sets the format: .svg or .png. [default: FILE's name with
-    /// the ending .svg, in the working directory; no picture with --html]
+    /// File for the picture. The ending of the name sets the format: .svg or .png. [default: the name
+    /// of FILE with the ending .svg, in the working directory; no picture with --html]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) out: Option<PathBuf>,
 
@@ -57,8 +57,8 @@ pub(crate) struct PlotArgs {
     #[arg(long = "where", value_name = "COLUMN=VALUE|COMPARISON", value_parser = filter)]
     pub(crate) filters: Vec<Filter>,
 
-    /// Axis over which flap chooses the best row. For each cell of a map or point of a line, flap draws the
-    /// best of the rows at all values of the axis. You can repeat --best-over
+    /// Axis along which flap compares rows and draws only the best row. For each cell of a map, and for each
+    /// point of a line, flap chooses from the rows at all values of the axis. You can repeat --best-over
     ///
     /// The best row is the row with the largest value of the drawn measure. For power, current, strain,
     /// field, drag, force_1, force_2 and hover_growth_1_s, the best row has the smallest value. With --where,

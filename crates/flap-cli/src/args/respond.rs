@@ -31,8 +31,8 @@ pub(crate) struct RespondArgs {
     #[arg(long, value_name = "VALUE")]
     pub(crate) step: Option<String>,
 
-    /// Longest step of the followed parameter at ends of bistable bands and where the response is steep [default: a
-    /// sixteenth of the shortest step]
+    /// Longest step of the followed parameter at ends of bistable bands, and where the motion changes
+    /// strongly [default: a sixteenth of the shortest step]
     #[arg(long, value_name = "VALUE")]
     pub(crate) tolerance: Option<String>,
 

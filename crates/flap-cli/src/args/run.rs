@@ -88,7 +88,8 @@ pub(crate) struct RunArgs {
 }
 
 impl RunArgs {
-    /// Returns one design for each combination of a preset or file with values of the options `--each`.
+    /// For each preset or file on the command line, returns one design for each combination of the values of
+    /// the options `--each`.
     pub(crate) fn designs(&self) -> Vec<PointArgs> {
         let mut all = vec![self.changes.clone()];
         for (name, values) in &self.each {

@@ -73,8 +73,8 @@ pub(crate) struct CheckArgs {
     #[arg(value_name = "GRID")]
     pub(crate) grid: PathBuf,
 
-    /// Number of threads of the sweep; for the estimate, each thread is as fast as on this machine [default:
-    /// one thread per core]
+    /// Number of threads of the sweep; the estimate assumes that threads are as fast as on this machine
+    /// [default: one thread per core]
     #[arg(short = 'j', long, value_name = "N", value_parser = threads)]
     pub(crate) threads: Option<NonZeroUsize>,
 

@@ -237,8 +237,8 @@ pub(crate) struct TrackArgs {
     ///
     /// The columns of the file are time_s (or time_ms), and root_x, root_y, tip_x and tip_y, two points of the leading edge.
     /// To compute the pitch, flap also requires edge_x and edge_y, a point on the lower edge. All lengths have the same
-    /// unit. The pitch is positive if the lower edge lags while the stroke rises. For four-bar, multiply
-    /// the pitch by -1.
+    /// unit. The pitch is positive if the lower edge lags behind the leading edge while the stroke rises. For
+    /// four-bar, multiply the pitch by -1.
     #[arg(value_name = "POINTS")]
     pub(crate) points: PathBuf,
 

@@ -10,7 +10,7 @@ use crate::console;
 use crate::failure::Failure;
 use crate::models;
 
-/// The name of a grid from stdin in messages and sidecars.
+/// The name that messages and sidecars use for a grid from stdin.
 const STDIN: &str = "<stdin>";
 
 /// Reads the grid file at `path`, or a grid from stdin if the path is `-`, and returns its plan.

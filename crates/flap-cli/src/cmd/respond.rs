@@ -78,7 +78,7 @@ fn without_rows(plan: &Plan, args: &RespondArgs, mut verdicts: Verdicts<'_>) -> 
     Ok(job::exit_code(&summary, &args.begin.work))
 }
 
-/// A sink that ignores all rows.
+/// An output that discards all rows.
 struct NoOutput;
 
 impl Sink for NoOutput {

@@ -24,8 +24,9 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
 
-/// In a combination of inputs, flap leaves out each input, force and torque with a share below this fraction.
-/// For one input, flap leaves out forces and torques below this fraction of the largest change.
+/// Each combination of inputs has two singular vectors of length 1. The tables leave out inputs, forces and
+/// torques whose entry in a singular vector is smaller than this number. For one input, the tables leave out
+/// forces and torques whose change is smaller than this fraction of the input's largest change.
 const SMALL: f64 = 0.1;
 
 /// flap leaves out a combination of inputs whose singular value is smaller than this fraction of the largest

@@ -77,8 +77,9 @@ impl<'a> Verdicts<'a> {
         varied.chain(["kind", "from", "to", "unit", "resolution", "jump_deg", "motions"]).collect()
     }
 
-    /// Returns the summary of a response curve as one row for each bistable or irregular band. A curve
-    /// without such bands has one row for the whole range of the followed parameter.
+    /// Returns the summary of a response curve as one row for each bistable or irregular band. In an
+    /// irregular band, motions do not repeat after one drive period. A curve without bistable and irregular
+    /// bands has one row for the whole range of the followed parameter.
     fn cells(&self, design: &Point, verdict: &Verdict) -> Vec<Vec<String>> {
         let row = |kind: &str, [from, to]: [f64; 2], jump: Option<f64>, motions: String| {
             let values = self.plan.axes().varied();

@@ -121,7 +121,7 @@ pub(super) fn draw(
 
 /// Draws the legend at the top of the plot: the names and colours of the two methods.
 fn legend(scene: &mut Scene, frame: &ComputedLayout) {
-    /// Side of a coloured square in the legend.
+    /// Length of the sides of a coloured square in the legend.
     const SIDE: f64 = 10.0;
     let mut left = frame.margin_left + 6.0;
     let top = frame.margin_top + 5.0;

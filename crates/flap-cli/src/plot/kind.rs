@@ -8,9 +8,10 @@ use crate::failure::Failure;
 /// The kind of a picture, and the positions of the columns that the picture shows.
 pub(super) struct Columns {
     pub(super) kind: PictureKind,
-    /// Column on the horizontal axis, or the measure of a tornado.
+    /// Column on the horizontal axis, or the measure of a tornado picture.
     pub(super) x: usize,
-    /// Column on the vertical axis. In a trajectory, a histogram, a tornado and a matrix, `y` equals `x`.
+    /// Column on the vertical axis. In pictures of a trajectory or a matrix, and in histogram and tornado
+    /// pictures, `y` equals `x`.
     pub(super) y: usize,
     /// Column that distinguishes the lines. The picture has one line for each value of this column.
     pub(super) by: Option<usize>,

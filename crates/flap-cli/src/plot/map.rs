@@ -138,8 +138,8 @@ fn value_at(axis: &Axis, fraction: f64) -> f64 {
     if axis.log { low * (high / low).powf(fraction) } else { low + (high - low) * fraction }
 }
 
-/// A rectangle of raster positions that have the same nearest point, `owner`. The ranges of columns and rows
-/// do not include their ends.
+/// A rectangle of raster positions that have the same nearest point, `owner`. The first number of
+/// `columns` and `rows` belongs to the rectangle, and the second number does not.
 #[derive(Clone, Debug, PartialEq)]
 struct Rectangle {
     columns: [usize; 2],

@@ -44,7 +44,8 @@ pub(super) struct Trial<'a> {
     checked: u64,
     /// True if flap adds no more points to the sample.
     closed: bool,
-    /// Points of the sample that are not finished, as numbers in the order in which flap checks the points.
+    /// The unfinished points of the sample. The set contains the number of each point in the order in which
+    /// flap checks the points.
     running: BTreeSet<u64>,
     /// The work of each finished point of the sample: the number of evaluations of the equations of motion,
     /// including evaluations for derivatives.
@@ -139,7 +140,7 @@ impl Trial<'_> {
         (self.written > 0).then(|| self.rows.target().len() as f64 / self.written as f64)
     }
 
-    /// Returns true if flap adds no more points to the sample and all its points are finished.
+    /// Returns true if flap adds no more points to the sample, and all points of the sample are finished.
     pub(super) fn is_complete(&self) -> bool {
         self.closed && self.running.is_empty()
     }
@@ -182,8 +183,8 @@ impl Trial<'_> {
         None
     }
 
-    /// Closes the sample to more points if it is large enough, if it contains the whole plan, or if the time
-    /// limit has passed.
+    /// Stops adding points to the sample if the sample is large enough, if all points of the plan were
+    /// checked, or after the time limit.
     fn close(&mut self) {
         self.closed |= self.works.len() + self.running.len() >= MOST
             || self.checked >= self.plan.len()

@@ -25,7 +25,7 @@ pub(super) fn run(args: &NewArgs) -> Result<Exit, Failure> {
 }
 
 /// Returns a varied parameter with its value in the printed device. The printed device does not use the axes
-/// of the grid file, and uses the first of several listed devices.
+/// of the grid file. If the grid file lists several devices, flap prints the values of the first device.
 fn before_axes(plan: &Plan, index: usize) -> String {
     let parameter = &plan.parameters()[index];
     let value = match (plan.base()[index], plan.in_designs(index)) {

@@ -43,7 +43,7 @@ pub(super) fn run(args: &ConvertArgs) -> Result<Exit, Failure> {
 }
 
 /// Stores the number and the checksums of the written rows in the sidecar. If the results are damaged, the
-/// sidecar keeps the checksums of the rows that were computed.
+/// sidecar keeps its earlier checksums, which are the checksums of the undamaged rows.
 fn note(sidecar: &mut Sidecar, rows: u64, checksums: Checksums, is_damaged: bool) {
     if is_damaged {
         // Damaged rows remain damaged in another format: the checksums are for the rows that were computed.

@@ -16,8 +16,8 @@ use crate::table::{Table, six_digits};
 /// Number of samples of the free motion per period of the first mode.
 const SAMPLES: u32 = 200;
 
-/// flap prints a note if the residual of the fitted damped sine is larger than this fraction of the stroke
-/// (root mean squares).
+/// If the relative residual of the fitted damped sine exceeds this number, flap prints a note. The residual
+/// is the stroke minus the sine, and the relative residual is a ratio of root mean squares.
 const POOR_FIT: f64 = 0.1;
 
 /// flap prints a note if the second peak of the settled stroke has at least this fraction of the height of

@@ -20,7 +20,7 @@ pub(super) fn refused(option: &str, error: UserError) -> Failure {
     Failure::usage(format!("{option}: {error}")).helps(error.help)
 }
 
-/// Returns the number. Numbers that are rounding errors in comparison with 1 mN or 1 µN·m become zero.
+/// Returns the number, or zero if the number is as small as a rounding error of 1 mN or 1 µN·m.
 pub(super) fn tidy(number: f64) -> f64 {
     if number.abs() < 1e-12 { 0.0 } else { number }
 }

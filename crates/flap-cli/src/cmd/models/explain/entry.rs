@@ -61,8 +61,8 @@ impl Entry {
         vec![name.clone(), format!("{what}{rest}"), models.join(", "), lines.join("\n")]
     }
 
-    /// Adds the entry to `others`. If `others` already contains this name with this meaning, the function
-    /// adds only the models.
+    /// Adds the entry to `others`. If `others` already contains an entry with this name and meaning, the
+    /// function only adds the models to the existing entry.
     pub(super) fn add(self, others: &mut Vec<Entry>) {
         let same = |other: &&mut Entry| {
             (&other.name, &other.what, &other.rest, &other.text)
