@@ -29,8 +29,8 @@ pub(crate) struct SweepArgs {
 
     /// Run only part I of N equal parts of the grid, so that several machines can share a sweep
     ///
-    /// `flap results merge` joins the parts. Without --out, the file for the rows of a part has a name such as
-    /// grid.2of8.csv.
+    /// `flap results merge` joins the results of all parts. Without --out, the file for the rows of a part has
+    /// a name such as grid.2of8.csv.
     /// The parts do not contain points of [refine]: `flap results resume` adds the points of [refine] to the merged
     /// file.
     #[arg(long, value_name = "I/N")]

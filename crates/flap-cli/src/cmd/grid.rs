@@ -13,7 +13,8 @@ use crate::models;
 /// The name that messages and sidecars use for a grid from stdin.
 const STDIN: &str = "<stdin>";
 
-/// Reads the grid file at `path`, or a grid from stdin if the path is `-`, and returns its plan.
+/// Reads the grid file at `path`, or a grid from stdin if the path is `-`. Returns the plan, which contains
+/// the points of the grid.
 pub(super) fn read(path: &Path) -> Result<Plan, Failure> {
     let plan = if is_stdin(path) {
         grid::read_from(io::stdin().lock(), Path::new(STDIN), models::all())

@@ -21,7 +21,7 @@ use crate::failure::Failure;
 use crate::models;
 use crate::table::six_digits;
 
-/// A design point, and the plan to which the point belongs.
+/// A design point, and the plan that contains all points of the same grid.
 pub(crate) struct Chosen {
     pub(crate) plan: Plan,
     /// Value of each parameter of the plan, in SI units and in the order of the parameters.

@@ -32,8 +32,8 @@ pub(crate) fn run(args: &SweepArgs) -> Result<Exit, Failure> {
     job::run(&plan, out, args.begin.on_existing(), &args.begin.work, origin)
 }
 
-/// Returns the plan in the sidecar of earlier results. If the earlier results are a rerun, also returns the
-/// results from which the points of the rerun were chosen.
+/// Returns the plan of the sweep that the sidecar of earlier results records. If the earlier results are a
+/// rerun, also returns the results from which the points of the rerun were chosen.
 fn repeated(args: &SweepArgs) -> Result<(Plan, Option<Origin>), Failure> {
     let path = args.grid();
     if args.shard.is_some() {

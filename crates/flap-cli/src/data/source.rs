@@ -32,7 +32,7 @@ pub(crate) struct Source {
     derived: Vec<String>,
     /// Axes along which the sweep added points. Empty without a sidecar.
     refined: Vec<RefinedAxis>,
-    /// The plan that the sidecar contains.
+    /// The plan with which the results were computed, from the sidecar.
     plan: Option<Plan>,
     path: PathBuf,
     is_verbose: bool,
@@ -102,7 +102,8 @@ impl Source {
         Ok(found)
     }
 
-    /// Moves the plan of the sidecar out of the source. The result is `None` without a usable sidecar.
+    /// Returns the plan with which the results were computed, and `None` at later calls. The result is also
+    /// `None` without a usable sidecar.
     pub(crate) fn take_plan(&mut self) -> Option<Plan> {
         self.plan.take()
     }

@@ -22,7 +22,8 @@ use crate::models;
 const SIDECAR_HELP: &str =
     "the sidecar FILE.meta.toml must be in the folder of the results; it contains the grid";
 
-/// Returns the plan and the sidecar of a results file. The sidecar is in the same folder as the results file.
+/// Returns the plan with which a results file was computed, and the sidecar of the file. The sidecar is in
+/// the same folder as the results file.
 pub(crate) fn recorded(results: &Path, on_damage: OnDamage) -> Result<(Plan, Sidecar), Failure> {
     let sidecar = read_sidecar(results, on_damage)?;
     Ok((plan_of(&sidecar_of(results), &sidecar)?, sidecar))
@@ -46,7 +47,8 @@ pub(crate) fn read_sidecar(results: &Path, on_damage: OnDamage) -> Result<Sideca
     })
 }
 
-/// Returns the plan that a sidecar contains. Error messages contain `path`, the path of the sidecar.
+/// Returns the plan with which the results of a sidecar were computed. Error messages contain `path`, the path
+/// of the sidecar.
 pub(crate) fn plan_of(path: &Path, sidecar: &Sidecar) -> Result<Plan, Failure> {
     sidecar.plan(models::all()).map_err(|error| {
         let failure = Failure::usage(format!("{}: {error}", path.display()));
@@ -104,8 +106,8 @@ pub(crate) fn tell(note: &Note) {
     console::warn(&note.to_string());
 }
 
-/// Opens a results file that has a sidecar. Returns the opened results, the plan in the sidecar, and the
-/// sidecar.
+/// Opens a results file that has a sidecar. Returns the opened results, the plan with which the
+/// results were computed, and the sidecar.
 pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, Plan, Sidecar), Failure> {
     Failure::unless_results(results)?;
     Format::of(results)?;
@@ -114,8 +116,8 @@ pub(crate) fn open_recorded(results: &Path, read: &ReadArgs) -> Result<(Opened, 
     Ok((open(results, read)?, plan, sidecar))
 }
 
-/// Returns the plan of a results file. If `point` is a point that the refinement added, the plan includes all
-/// added points.
+/// Returns the plan with which a results file was computed. If `point` is a point that the refinement added,
+/// the plan includes all added points.
 ///
 /// The function computes the added points again from the rows of the results.
 pub(crate) fn with_refinement(

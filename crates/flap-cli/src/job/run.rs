@@ -1,4 +1,5 @@
-//! Runs a plan and writes its rows to a file or to stdout; `sweep`, `resume` and `rerun` share this work.
+//! Computes the points of a plan and writes their rows to a file or to stdout. The commands `sweep`, `resume`
+//! and `rerun` share this code.
 
 use std::io;
 use std::path::{Path, PathBuf};

@@ -26,7 +26,8 @@ impl Columns {
     }
 }
 
-/// Returns the kind and the columns of a picture. flap chooses what the user did not request.
+/// Returns the kind and the columns of a picture. If the user gave no kind or omitted a column, the function
+/// chooses the kind or the column.
 pub(super) fn columns(request: &Request, axes: &Axes) -> Result<Columns, Failure> {
     let kind = request.args.kind.map_or_else(|| suitable(request, axes), Ok)?;
     refuse_strays(request, kind)?;

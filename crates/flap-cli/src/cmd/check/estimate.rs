@@ -59,7 +59,7 @@ fn size(bytes: f64) -> String {
 /// Estimates the time of a sweep of `points` points on `threads` threads, or on one thread per core. The
 /// function computes some points of `plan` for the estimate.
 ///
-/// The estimate of a whole plan includes all points that the refinement of the plan may add. A refinement
+/// The estimate for a whole sweep includes all points that the refinement of the grid may add. A refinement
 /// adds no points to a shard.
 pub(super) fn of(plan: &Plan, points: u64, shard: Option<Shard>, threads: Option<NonZeroUsize>) -> Estimate {
     let most_points = plan.refine().map(|refine| refine.max_points).filter(|_| shard.is_none());

@@ -14,7 +14,7 @@ use flap_sweep::run::{self, Sink};
 use flap_sweep::study::survey::spread;
 use flap_sweep::table::layout::Layout;
 
-/// Largest number of points in the sample that `flap check` runs.
+/// `flap check` runs a sample of at most this number of points.
 const MOST: usize = 256;
 
 /// Time after which flap adds no further point to the sample, measured from the start of the sample.
@@ -31,7 +31,7 @@ const MOST_CHECKED: u64 = 100_000;
 /// this fraction.
 const SMALLEST_ERROR: f64 = 0.1;
 
-/// A sample of points that are spread over a plan, and the measurements of their work.
+/// A sample of points that are spread over the points of a sweep, and the measured work of each point.
 ///
 /// Until the last point of the sample is finished, flap runs more points, so that all lanes are full as in a
 /// sweep. Without these additional points, the slowest points of the sample would run alone, and the measured
@@ -149,7 +149,7 @@ impl Trial<'_> {
         self.is_complete() || self.started.elapsed() >= LONGEST
     }
 
-    /// Returns the plan index of the point that flap checks after `number` earlier points.
+    /// Returns the index in the grid of the point that flap checks after `number` earlier points.
     fn index(&self, number: u64) -> u64 {
         let points = self.plan.len();
         if points <= MOST as u64 { number % points } else { spread(number, points) }
@@ -183,7 +183,7 @@ impl Trial<'_> {
         None
     }
 
-    /// Stops adding points to the sample if the sample is large enough, if all points of the plan were
+    /// Stops adding points to the sample if the sample is large enough, if all points of the sweep were
     /// checked, or after the time limit.
     fn close(&mut self) {
         self.closed |= self.works.len() + self.running.len() >= MOST

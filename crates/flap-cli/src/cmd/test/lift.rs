@@ -45,7 +45,7 @@ pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Returns the failure for a file of a motion without a pitch column. The help line shows a command that
+/// Returns the failure for a motion file that has no pitch column. The help line shows a command that
 /// computes the pitch of a wing with a prescribed stroke.
 fn stroke_alone(error: RecordError, plan: &Plan, args: &LiftArgs) -> Failure {
     let computes = |what: &str| {
