@@ -55,7 +55,7 @@ pub fn fit(interval: f64, samples: &[f64]) -> Option<DampedSine> {
 
 /// Zero crossings of samples, for the initial values of a fit.
 struct Crossings {
-    /// Mean distance between crossings, in samples.
+    /// Mean number of samples between successive crossings.
     half_period: f64,
     /// Mean logarithm of the ratio of successive extrema.
     decay_per_half_period: f64,

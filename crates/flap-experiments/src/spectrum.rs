@@ -59,8 +59,8 @@ impl Spectrum {
         }
     }
 
-    /// Returns at most `count` peaks, in falling order of height. A parabola through three bins gives frequency and
-    /// amplitude.
+    /// Returns at most `count` peaks, in falling order of height. The vertex of a parabola through three bins
+    /// is the frequency and the amplitude of a peak.
     ///
     /// A finite window adds side lobes and ripples around each peak. A local maximum is a peak only if it is
     /// higher than the side lobes and ripples. The height of a local maximum is measured from the lowest
@@ -112,10 +112,11 @@ impl Spectrum {
         SpectrumPeak { frequency: self.bin * (top as f64 + shift), amplitude: at + 0.5 * slope * shift }
     }
 
-    /// Returns the largest side lobe of a peak of amplitude A at a distance d in frequency: A/(N sin πdΔ).
+    /// Returns the largest amplitude of the side lobes of a peak at the distance d from the frequency of the
+    /// peak: A/(N sin πdΔ).
     ///
-    /// N is the number of samples and Δ is the time between samples. The peak's mirror image at negative frequencies is
-    /// included.
+    /// A is the amplitude of the peak, N is the number of samples, and Δ is the time between samples. The
+    /// peak's mirror image at negative frequencies is included.
     fn leaked(&self, peak: &SpectrumPeak, frequency: f64) -> f64 {
         let of = |distance: f64| {
             peak.amplitude / (self.samples as f64 * libm::sin(PI * distance * self.interval).abs())

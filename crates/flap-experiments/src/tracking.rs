@@ -25,8 +25,9 @@ impl LeadingEdge {
         [x / length, y / length]
     }
 
-    /// Returns the distance of a point from the line through root and tip. The distance is positive to the right of
-    /// the line, where the lower edge lags while the stroke rises.
+    /// Returns the distance of a point from the line through root and tip. The distance is positive to the
+    /// right of the direction from the root to the tip. On this side, the lower edge lags while the stroke
+    /// rises.
     pub fn distance(&self, point: [f64; 2]) -> f64 {
         let [x, y] = self.direction();
         y * (point[0] - self.root[0]) - x * (point[1] - self.root[1])
@@ -60,8 +61,8 @@ pub fn strokes(edges: &[LeadingEdge]) -> Vec<f64> {
 /// ψ = arcsin(d/c_edge)
 /// ```
 ///
-/// The sign of the pitch is the sign of the distance. As in the models `bimorph` and `direct-drive`, the pitch
-/// is positive if the lower edge lags while the stroke rises. Eq. (42) specifies no sign.
+/// The pitch has the sign of the distance. As in the models `bimorph` and `direct-drive`, the pitch is
+/// positive if the lower edge lags while the stroke rises. Eq. (42) specifies no sign.
 ///
 /// # Errors
 /// An error if the distance is larger than the chord, or the chord is not a positive number.

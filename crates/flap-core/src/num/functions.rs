@@ -1,5 +1,5 @@
-//! Elementary functions for scalars and SIMD vectors, computed by polynomials. Machines of one arithmetic
-//! class compute results that are equal to the last bit.
+//! Elementary functions for scalars and SIMD vectors, computed by polynomials. The results on two machines
+//! are equal to the last bit if both machines, or none of them, have a fused multiply-add.
 //!
 //! Sine, cosine and exponential are minimax polynomials. The polynomial of the exponential is valid for
 //! arguments r with |r| ≤ ½ ln 2. The logarithm uses the method of `e_log.c` in FreeBSD's library msun (Sun

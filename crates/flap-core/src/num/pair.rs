@@ -1,4 +1,4 @@
-//! A pair of two groups of lanes, which doubles the number of lanes.
+//! A number type that consists of two groups of lanes, and thus has twice as many lanes as one group.
 //!
 //! A right-hand side is a long chain of dependent operations. While an operation on one group of lanes waits
 //! for an earlier result, the processor computes operations on the other group of lanes.

@@ -12,7 +12,7 @@ pub trait PerLane<R: Real>: Copy {
     /// Values of the group in one lane.
     type One: Copy;
 
-    /// Returns a group with the values `one` in every lane, of the same number type as `like`.
+    /// Returns a group of the number type of `like`, with the values `one` in every lane.
     fn fill(like: R, one: &Self::One) -> Self;
 
     /// Replaces the values of the group in one lane.

@@ -17,13 +17,13 @@ pub trait Scalar: Bits + Lanes<Token = OneLane<Self>, Mask = bool> {
     /// Returns the value.
     fn value(self) -> f64;
 
-    /// Calls `work` in a function that the compiler translates into the instructions for the arithmetic of
-    /// the scalar.
+    /// Calls `work` in a function that the compiler translates into the instructions that the scalar type
+    /// needs, such as a fused multiply-add.
     ///
     /// # Panics
     ///
-    /// Panics if the processor does not have the instructions for the arithmetic of the scalar. On x86-64,
-    /// the scalar `f64` needs AVX2. On processors without AVX2, use [`Unfused`].
+    /// Panics if the processor does not have the instructions that the scalar type needs. On x86-64, the
+    /// scalar `f64` needs AVX2. On processors without AVX2, use [`Unfused`].
     fn enter<T>(work: impl FnOnce() -> T) -> T;
 }
 

@@ -7,8 +7,9 @@
 //!
 //! The base-2 logarithm of the factor between two step sizes is rounded to a multiple of 1/8. Two motions
 //! that hardly differ are therefore integrated with exactly the same steps, and their final states also
-//! hardly differ. Without the rounding of step sizes, the state at the end of a period would vary by the
-//! integration error. With this variation, a motion would not repeat within a tight settling tolerance.
+//! hardly differ. Without the rounding of step sizes, the states at the ends of successive periods would
+//! differ by the integration error. With these differences, a motion would not repeat within a tight settling
+//! tolerance.
 
 use crate::num::Lanes;
 

@@ -9,7 +9,8 @@
 //! - `replay`: integration of runs with the step sizes of an earlier run, from changed constants and initial
 //!   states
 //! - `variation`: integration of a run together with its responses to small changes of the initial state
-//! - [`solve`]: integration of one run on scalars, in simple code. Tests compare the ensemble with this code
+//! - [`solve`]: integration of one run on scalars, in simple code. Tests compare the results of `solve` and
+//!   of the ensemble
 //! - [`ensemble`]: integration of many runs in lanes, each with its own time, step size and constants
 //!
 //! The integration of a run is divided into *time spans*, usually drive periods. Time is 0 at the beginning

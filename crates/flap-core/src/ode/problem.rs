@@ -28,23 +28,25 @@ pub trait Ode<const N: usize>: Sync {
     /// Returns the derivative ẏ on one `side` of the surface on which [`Ode::switch`] is zero.
     ///
     /// `side` is the sign of `switch`, +1 or −1. In the equations, use `side` instead of the sign of
-    /// `switch`. For example, a friction torque against the rate is `-friction * side`. `side` is constant
-    /// within a step. The integrator changes `side` when the motion reaches the surface.
+    /// `switch`. For example, a friction torque that opposes the velocity is `-friction * side`. `side` is
+    /// constant within a step. The integrator changes `side` when the motion reaches the surface.
     fn rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N];
 
-    /// True if [`Ode::is_plain`] returns true for some variants of the equations. The compiler then compiles
-    /// the steps with [`Ode::plain_rhs`] separately from the steps with [`Ode::rhs`].
+    /// True if [`Ode::is_plain`] returns true for some values of the type `Self`, which select different
+    /// forms of the equations. The compiler then compiles the steps with [`Ode::plain_rhs`] separately from
+    /// the steps with [`Ode::rhs`].
     const HAS_PLAIN: bool = false;
 
-    /// Returns true if [`Ode::plain_rhs`] computes the derivative ẏ of this variant of the equations.
+    /// Returns true if [`Ode::plain_rhs`] computes the derivative ẏ for the form of the equations that `self`
+    /// selects.
     #[inline(always)]
     fn is_plain(&self) -> bool {
         false
     }
 
-    /// Returns the derivative ẏ of a variant for which [`Ode::is_plain`] is true, equal to the result of
-    /// [`Ode::rhs`] to the last bit. The function contains no code that only other variants need, because
-    /// more code would slow down the steps.
+    /// Returns the derivative ẏ if [`Ode::is_plain`] is true. The result equals the result of [`Ode::rhs`] to
+    /// the last bit. The function contains no terms that are needed only if `is_plain` is false, because more
+    /// code would slow down the steps.
     #[inline(always)]
     fn plain_rhs<R: Real>(&self, c: &Self::Constants<R>, u: &Self::Input<R>, side: R, y: &[R; N]) -> [R; N] {
         self.rhs(c, u, side, y)
@@ -65,7 +67,7 @@ pub trait Ode<const N: usize>: Sync {
     /// derivative `dy`.
     ///
     /// The switching function must be continuous along a motion, but its derivative may jump. For a friction
-    /// torque against the rate `y[1]`, return `[y[1], dy[1]]`.
+    /// torque that opposes the velocity `y[1]`, return `[y[1], dy[1]]`.
     ///
     /// A motion that stays on the surface, such as a stroke that sticks due to friction, crosses the surface
     /// again and again in short steps. The row of a motion that stays on the surface has the status

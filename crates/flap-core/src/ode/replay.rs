@@ -101,8 +101,8 @@ where
 /// surface.
 const LANDINGS: u32 = 2;
 
-/// Largest allowed shift of the time at which a run reaches the switching surface, as a fraction of a mean
-/// step.
+/// Largest allowed difference between the times at which a run and the recorded run reach the switching
+/// surface, as a fraction of a mean step.
 const NEAR: f64 = 1e-2;
 
 /// Integrates a group of runs with the steps of `recording`. The group has at most one run for each lane.

@@ -1,11 +1,11 @@
-//! Computation of the first slope and the first step size of a run.
+//! Computation of the derivative ẏ at the beginning of a run, and of the first step size.
 
 use super::norm::add_squares;
 use super::variation::{Varied, slopes_outlined};
 use super::{Ode, input};
 use crate::num::Lanes;
 
-/// Returns the slope at time 0 and the first step size, by the algorithm of Hairer I, section II.4.
+/// Returns the derivative ẏ at time 0 and the first step size, by the algorithm of Hairer I, section II.4.
 ///
 /// `atol` contains the absolute tolerances of states and of responses. The algorithm evaluates the right-hand
 /// side twice. If the state or its slope is very small, for example at rest, the trial step is a

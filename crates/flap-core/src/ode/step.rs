@@ -12,7 +12,8 @@ pub struct Step<R, const N: usize> {
     /// State at each stage. The first state is the state at the beginning of the step, and the last state is
     /// the state at the end.
     pub y: [[R; N]; STAGES],
-    /// Slope at each stage. The last slope is the first slope of the next step.
+    /// Slope at each stage. The slope at the last stage is also the slope at the first stage of the next
+    /// step.
     pub k: [[R; N]; STAGES],
     /// Estimated error of the new state.
     pub error: [R; N],

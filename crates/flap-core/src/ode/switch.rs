@@ -7,8 +7,8 @@
 //! cubic polynomial. The polynomial has the values and the rates of the switching function at the two ends of
 //! the step. The integrator then computes the step again, with a step size that ends at the crossing. If this
 //! step ends more than a thousandth of an ordinary step away from the surface, Newton's method corrects the
-//! step size again. When a step ends on the surface, the integrator changes the side and computes the first
-//! slope of the next step again.
+//! step size again. When a step ends on the surface, the integrator changes the side, and computes the
+//! derivative ẏ at the beginning of the next step again.
 //!
 //! Two crossings within one step do not change the sign of the switching function at the end of the step. The
 //! switching function then moves towards zero at the beginning of the step, and away from zero at the end. If
@@ -20,19 +20,20 @@ use super::variation::{Varied, crossed, slopes_outlined};
 use super::{Ode, STRETCH, input, slope};
 use crate::num::{Lanes, Real};
 
-/// Largest distance from the surface at which a step counts as a step that ends on the surface, as a fraction
-/// of an ordinary step. The error of the cubic polynomial is usually far smaller than this distance.
+/// If the time between the end of a step and the crossing is below this limit, the step counts as ending on
+/// the surface. The limit is a fraction of an ordinary step size. The error of the cubic polynomial is
+/// usually far smaller than this limit.
 const LANDED: f64 = 1e-3;
 
 /// Largest number of corrections of the step size for a step that ends near the surface, but not on the
 /// surface.
 const CORRECTIONS: f64 = 3.0;
 
-/// Largest distance from the surface, as a fraction of an ordinary step, at which a step is accepted after
-/// the last correction of its size.
+/// After the last correction of the step size, this limit replaces the limit [`LANDED`].
 const REACHED: f64 = 1e-2;
 
-/// Largest distance from the surface, as a fraction of an ordinary step, at which the step size is corrected.
+/// The step size is corrected only if the time between the end of the step and the crossing is below this
+/// limit. The limit is a fraction of an ordinary step size.
 const NEAR: f64 = 0.1;
 
 /// A minimum of the switching function indicates two crossings within a step only if the minimum lies after
@@ -62,7 +63,7 @@ pub(super) struct Crossing<R: Lanes> {
     /// Next step size.
     pub(super) h: R,
     /// True if the step ends on the switching surface. When a step ends on the surface, the side changes, and
-    /// the first slope of the next step must be computed again.
+    /// the derivative ẏ at the beginning of the next step must be computed again.
     pub(super) arrived: R::Mask,
 }
 
@@ -75,8 +76,8 @@ impl<R: Lanes> Switching<R> {
         Switching { side: like.lit(1.0), value: [zero; 2], heading: none, corrections: zero, resume: zero }
     }
 
-    /// Returns the values at the beginning of a run. If a run begins on the switching surface, its side is
-    /// the side that the motion enters.
+    /// Returns the side, and the value and the rate of the switching function, at the beginning of a run. If
+    /// a run begins on the switching surface, its side is the side that the motion enters.
     #[inline(always)]
     pub(super) fn begin<O: Ode<N>, const N: usize>(ode: &O, c: &O::Constants<R>, y: &[R; N]) -> Switching<R> {
         let mut memory = Switching::new(y[0]);
@@ -170,8 +171,8 @@ pub(super) fn landing_size<R: Real>(h: R, [value, rate]: [R; 2]) -> R {
     h - value / rate
 }
 
-/// Returns the state and the first slope of a run that has reached its switching surface at time `t` (s).
-/// `side` is the new side of the run.
+/// Returns the state of a run that has reached its switching surface at time `t` (s), and the derivative ẏ on
+/// the new side. `side` is the new side of the run.
 #[inline(always)]
 pub(super) fn cross<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
     ode: &O,
@@ -219,8 +220,9 @@ impl<R: Real> Cubic<R> {
     /// Returns the zero of a cubic polynomial that has the sign `side` at the beginning of the step, and
     /// reaches the opposite sign.
     ///
-    /// Newton's iteration usually begins at the zero of a chord of the polynomial. If the polynomial moves
-    /// away from zero at the beginning of the step, Newton's iteration begins at the end of the step.
+    /// Newton's iteration usually begins at the zero of a straight line through two points of the polynomial.
+    /// If the polynomial moves away from zero at the beginning of the step, Newton's iteration begins at the
+    /// end of the step.
     #[inline(always)]
     fn root(&self, side: R) -> R {
         let zero = side.lit(0.0);

@@ -31,7 +31,7 @@ pub(super) struct Varied<T, const D: usize> {
 }
 
 impl<T> Varied<T, 0> {
-    /// Returns a motion without responses.
+    /// Returns the quantity `motion` of a motion whose responses are not computed.
     #[inline(always)]
     pub(super) fn alone(motion: T) -> Self {
         Varied { motion, responses: [] }
@@ -50,8 +50,8 @@ fn rhs<O: Ode<N>, R: Real, const PLAIN: bool, const N: usize>(
     if PLAIN { ode.plain_rhs(c, u, side, y) } else { ode.rhs(c, u, side, y) }
 }
 
-/// Returns the derivatives of the state and of its responses. [`Ode::plain_rhs`] computes these derivatives
-/// if `PLAIN` is true, and [`Ode::rhs`] otherwise.
+/// Returns the time derivatives of the state and of its responses. [`Ode::plain_rhs`] computes these
+/// derivatives if `PLAIN` is true, and [`Ode::rhs`] otherwise.
 #[inline(always)]
 pub(super) fn slopes<O: Ode<N>, R: Real, const PLAIN: bool, const N: usize, const D: usize>(
     ode: &O,
@@ -105,8 +105,8 @@ pub(super) fn slopes_outlined<O: Ode<N>, R: Real, const N: usize, const D: usize
 /// the new side of the motion.
 ///
 /// A change w of the state changes the switching function by dg, and therefore the time of the crossing by
-/// −dg/ġ. Between the old and the new time of the crossing, the changed motion has the slope of the opposite
-/// side:
+/// −dg/ġ. Between the old and the new time of the crossing, the time derivative of the changed motion is the
+/// derivative on the opposite side of the surface:
 ///
 /// ```text
 /// w⁺ = w + (f⁺ − f⁻) dg/ġ⁻

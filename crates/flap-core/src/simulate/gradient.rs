@@ -8,8 +8,9 @@
 //! dm/dp  = (m(p + δ, y₀ + δ dy₀/dp) − m(p − δ, y₀ − δ dy₀/dp)) / 2δ
 //! ```
 //!
-//! flap integrates the period several times with the same steps ([`replay`](crate::ode::replay)). The map Φ
-//! and the measure m are therefore smooth functions, and the change δ can be small.
+//! flap integrates the period several times, each time with the same sequence of step sizes
+//! ([`replay`](crate::ode::replay)). The map Φ and the measure m are therefore smooth functions, and the
+//! change δ can be small.
 //!
 //! The two-sided difference dm/dp compares the orbit at p + δ with the orbit at p − δ. The difference dm/dp
 //! is therefore accurate even if m has a kink as a function of y₀ alone. An example of a measure with a kink
@@ -45,7 +46,8 @@ const SMALL: f64 = 1e-8;
 const TOLERANCE_FACTOR: f64 = 0.1;
 
 /// Value of `rtol` below which the errors of derivatives decrease more slowly than the errors of the
-/// measures. If `rtol` is below this value, the integration for derivatives uses even tighter tolerances.
+/// measures. If `rtol` is below this value, the tolerances for derivatives are multiplied by a factor that is
+/// less than [`TOLERANCE_FACTOR`].
 const COARSE: f64 = 1e-6;
 
 /// Assumed relative error of an extremum of a signal, in units of the relative tolerance. Two extrema whose
@@ -80,8 +82,8 @@ const SMOOTH: f64 = 1e-3;
 /// Relative rounding error of a measure.
 const ROUNDING: f64 = 1e-13;
 
-/// A small change of the parameter values of a point, in whose direction the derivatives of the measures are
-/// computed.
+/// A small change of the parameter values of a point. flap computes the derivatives of the measures in the
+/// direction of this change.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Change {
     /// Parameter values after the change by `+size`, one for each parameter.
@@ -206,7 +208,7 @@ fn tolerance_factor(rtol: f64) -> f64 {
 type Side<C> = (C, f64);
 
 /// Constants and drive periods after a change by `+size` and by `-size`. The value is `None` if the changed
-/// parameter values are impossible or select another option than the point.
+/// parameter values are impossible, or if the change replaces the option of a choice.
 type Sides<C> = Option<[Side<C>; 2]>;
 
 /// Returns the constants and the drive periods after a change by `+size` and by `-size`.
@@ -504,8 +506,8 @@ impl Halves {
         if known { Ok((self.backward + self.forward) / (2.0 * size)) } else { Err(NoSlope::Kink) }
     }
 
-    /// Returns true if a measure has a kink. Extrema in the measure that are equal within the integration
-    /// error must have been made exactly equal.
+    /// Returns true if a measure has a kink. Before the call, the caller must make extrema exactly equal if
+    /// they differ by less than the integration error.
     ///
     /// A measure has a kink if the backward and the forward derivative differ by more than `error`. Both
     /// derivatives are dimensionless: the change of the measure relative to its size `of`, per relative

@@ -53,7 +53,7 @@ pub trait Jobs {
 /// in all lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LaneUse {
-    /// Periods in which only the states are integrated: the march and chord steps.
+    /// Periods in which only the states are integrated: the march, and the steps of Broyden's method.
     pub marching: Occupancy,
     /// Periods in which the states and their derivatives with respect to the initial state are integrated.
     pub varying: Occupancy,

@@ -4,11 +4,11 @@
 //! different [kinds](Kind) are integrated by different ensembles, so that lanes integrate no unnecessary
 //! quantities.
 //!
-//! In most periods, only the states are integrated. When a lane of the ensemble for states becomes free, the
-//! ensemble starts the search of a new point. If a search requests more than the states, the search waits
-//! until many searches request the same quantities, or until no lane has work. A second ensemble then
-//! integrates the periods of the searches that wait. Meanwhile, the lanes of the first ensemble keep their
-//! state.
+//! In most periods, only the states are integrated. One ensemble integrates these periods. When a lane of
+//! this ensemble becomes free, the ensemble starts the search of a new point. If a search requests more than
+//! the states, the search waits until many searches request the same quantities, or until no lane has work. A
+//! second ensemble then integrates the periods of the searches that wait. Meanwhile, the lanes of the first
+//! ensemble keep their state.
 //!
 //! The same code runs the search of a single point, with one scalar instead of SIMD lanes.
 
@@ -40,8 +40,8 @@ use crate::ode::{Interrupt, Start};
 /// periods end.
 const BATCH: usize = 128;
 
-/// Largest number of points that wait because their model variant differs from the variant that is being
-/// integrated.
+/// Largest number of points that wait because the form of their equations differs from the equations that are
+/// being integrated.
 ///
 /// With far more points than lanes, lanes are seldom empty.
 const ASIDE: usize = 512;
@@ -96,8 +96,8 @@ impl<M: Model<N>, const N: usize> Kernel for LanesKernel<'_, M, N> {
     }
 }
 
-/// Returns the next point of the variant `model`. Points of different variants are added to `waiting`, up to
-/// a limit. `waiting` contains each point together with its variant.
+/// Returns the next point whose equations have the form that `model` selects (see [`Model::variant`]). Points
+/// whose equations have a different form are added to `waiting`, up to a limit.
 fn next_point<M: Model<N>, const N: usize>(
     model: &M,
     jobs: &RefCell<&mut dyn Jobs>,
@@ -190,7 +190,7 @@ impl<'a, 's, I: Simd, M: Model<N>, const N: usize> Driver<'a, 's, I, M, N> {
         Driver { simd, model, solver, source, interrupted, waiting, lane_use: LaneUse::default() }
     }
 
-    /// Runs all searches of the source.
+    /// Runs all searches that the source of searches provides.
     fn run(&mut self) {
         loop {
             self.integrate_batch(Kind::States);

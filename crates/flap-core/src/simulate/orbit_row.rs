@@ -1,10 +1,10 @@
 //! The row of an orbit, and the error estimate of the row.
 //!
 //! flap computes the measures of an orbit at two tolerances: the tolerance of the row, and a middle
-//! tolerance, which is 64 times as large. The error of the integration is about proportional to the
-//! tolerance. The expected error of the row is therefore about 1/64 of the difference between the two
-//! results. The difference between the two results may be small by chance, so the error estimate is 0.6 times
-//! the difference.
+//! tolerance. The middle tolerance is 64 times the tolerance of the row. The error of the integration is
+//! about proportional to the tolerance. The expected error of the row is therefore about 1/64 of the
+//! difference between the two results. The difference between the two results may be small by chance, so the
+//! error estimate is 0.6 times the difference, not 1/64.
 
 use super::row::{Row, Status};
 use super::settings::SolverSettings;
@@ -42,7 +42,7 @@ const LEAST: f64 = 5.0;
 /// integration method predicts.
 pub(super) const MANY_SWITCHES: u64 = 16;
 
-/// The measured period of an orbit.
+/// A period of an orbit, with the sums from which flap computes the measures of the row.
 pub(super) struct MeasuredOrbit<'a, T, const N: usize> {
     /// State at the beginning of the period.
     pub(super) y: &'a [f64; N],

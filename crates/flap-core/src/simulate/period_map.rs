@@ -8,7 +8,8 @@ use super::linear::Lu;
 use crate::measure::multipliers::{Matrix, is_stable};
 use crate::measure::strobe::{distance, residual};
 
-/// Largest number of chord steps of an iteration. Usually, one to three chord steps are sufficient.
+/// Largest number of steps of Broyden's method in the search for one fixed point. Usually, one to three steps
+/// are sufficient.
 const MAX_CHORD_STEPS: u32 = 6;
 
 /// Factor by which the residual must decrease from one step of an iteration to the next.
@@ -56,7 +57,7 @@ impl<const N: usize> Orbit<N> {
     }
 }
 
-/// The chord iteration `y ← y + (I − M)⁻¹ (Φ(y) − y)` for a fixed point of the map Φ.
+/// Broyden's method `y ← y + (I − M)⁻¹ (Φ(y) − y)` for a fixed point of the map Φ.
 ///
 /// At the beginning, M is the monodromy matrix of a nearby orbit. After each step, Broyden's formula updates
 /// M.
@@ -72,7 +73,8 @@ pub(super) struct Chord<const N: usize> {
 }
 
 impl<const N: usize> Chord<N> {
-    /// Returns a chord iteration that begins at the state of `orbit`, with the monodromy matrix of `orbit`.
+    /// Returns an iteration of Broyden's method that begins at the state of `orbit`, with the monodromy
+    /// matrix of `orbit`.
     pub(super) fn new(orbit: Orbit<N>, scale: &[f64; N]) -> Chord<N> {
         Chord { orbit, residual: f64::INFINITY, scale: *scale, before: None, steps: 0 }
     }
@@ -116,8 +118,8 @@ impl<const N: usize> Chord<N> {
     }
 }
 
-/// Returns the fixed point of a linear map. The map takes the state of `near` to `end`, and its derivative is
-/// the monodromy matrix of `near`.
+/// Returns the fixed point of a linear map. The map takes the state of `near` to `end`, and the derivative of
+/// the map is the monodromy matrix of `near`.
 ///
 /// Returns `None` if the linear system is singular or not finite.
 pub(super) fn fixed_point<const N: usize>(

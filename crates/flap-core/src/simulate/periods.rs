@@ -100,7 +100,7 @@ impl<M: Model<N>, const N: usize> Exchange<M, N> {
         }
     }
 
-    /// Returns the request for a period that the search has stored. The driver calls this function.
+    /// Returns the request that the search has stored for the next period. The driver calls this function.
     pub(super) fn request(&self) -> Option<Request<N>> {
         self.request.get()
     }

@@ -8,16 +8,16 @@
 //! 2. **Middle.** flap finds the orbit and computes its measures at a middle tolerance, between the loose
 //!    tolerance and the tolerance of the row. The error estimate of the row is computed from the difference
 //!    between the measures at the middle tolerance and the measures of the row.
-//! 3. **Approach.** Broyden steps, which this code calls chord steps, lead close to the orbit of the row.
-//!    They are integrated at the tolerance of the row. The monodromy matrix is computed from a period with
-//!    responses to changes of the initial state. A Newton step with the monodromy matrix leads to the orbit
-//!    of the row. The period of this orbit is then integrated and measured, which also confirms that the
-//!    motion returns to its initial state.
+//! 3. **Approach.** Steps of Broyden's method move the state close to the orbit of the row. In this code,
+//!    these steps are called chord steps. The periods of these steps are integrated at the tolerance of the
+//!    row. The monodromy matrix is computed from a period with responses to changes of the initial state. A
+//!    Newton step with the monodromy matrix moves the state to the orbit of the row. The period of this orbit
+//!    is then integrated and measured, which also confirms that the motion returns to its initial state.
 //! 4. **Judge.** If a row is not accurate enough, the row is computed again with tighter tolerances, from the
 //!    orbit that was found.
 //!
 //! If the equations are [symmetric](Symmetry), the orbit is probably also symmetric. For a symmetric orbit,
-//! Newton's iteration, the chord steps and the measured periods integrate half a period, and the final state
+//! Newton's iteration, Broyden's method and the measured periods integrate half a period, and the final state
 //! is mirrored. The march always integrates whole periods. If no symmetric orbit is found, the search
 //! continues with whole periods.
 //!
@@ -71,11 +71,11 @@ const ARRIVED: f64 = 1e-3;
 const ARRIVAL_CYCLES: u32 = 9;
 
 /// The middle tolerances are the tolerances of the row, multiplied by this factor. The errors of the orbits
-/// at the two tolerances differ by about this factor.
+/// at the middle tolerances and at the tolerances of the row differ by about this factor.
 const MIDDLE: f64 = 64.0;
 
-/// Residual at the middle tolerance, relative to this tolerance, below which the chord iteration ends after
-/// one further step.
+/// Residual at the middle tolerance, relative to this tolerance, below which Broyden's method ends after the
+/// next step.
 const MIDDLE_RESIDUAL: f64 = 10.0;
 
 /// Relative tolerance of the period from which the Floquet multipliers are computed, divided by the square
@@ -84,16 +84,17 @@ const MIDDLE_RESIDUAL: f64 = 10.0;
 /// The tolerance for the Floquet multipliers is never smaller than the tolerance of the row.
 const RESPONSES: f64 = 1.25e-3;
 
-/// Residual below which one further step leads so close to the orbit that its monodromy matrix can be
-/// computed there. The residual is relative to the square root of the row's tolerance.
+/// If the residual is below this limit, the next step ends close to the orbit. The orbit's monodromy matrix
+/// can then be computed at the end of this step. The limit is relative to the square root of the row's
+/// tolerance.
 const MATRIX_RESIDUAL: f64 = 0.1;
 
-/// If a step with the monodromy matrix of the row's orbit is shorter than this length, flap assumes that no
-/// further step is needed.
+/// If a Newton step with the orbit's monodromy matrix changes the state by less than this length, flap
+/// assumes that no further step is needed.
 ///
 /// The length is relative to the square root of the target residual.
 ///
-/// After a step, the residual is about the square of the step length.
+/// After a Newton step, the residual is about the square of the length of this step.
 const LAST_STEP: f64 = 0.1;
 
 /// Largest number of Newton iterations. If Newton's iteration converges, two to four iterations are usual.
@@ -113,7 +114,7 @@ const FINEST: f64 = 1e-5;
 /// Smallest relative tolerance at which a point is integrated.
 const FINEST_RTOL: f64 = 1e-12;
 
-/// Largest number of repeated integrations for the accuracy of a row.
+/// Largest number of times that a row is computed again because the row is not accurate enough.
 const REFINEMENTS: u32 = 3;
 
 /// Smallest target residual if a row is computed again with tighter tolerances.
@@ -147,7 +148,7 @@ struct Search<'a, M: Model<N>, const N: usize> {
     /// Largest residual of an orbit that counts as found.
     goal: f64,
     march: March<N>,
-    /// Largest modulus of the multipliers of a subharmonic orbit.
+    /// Largest modulus of the Floquet multipliers of a subharmonic orbit.
     subharmonic: f64,
     ending: Ending,
     /// Number of half drive periods and of evaluated right-hand sides, in total and in the current run.
@@ -156,18 +157,19 @@ struct Search<'a, M: Model<N>, const N: usize> {
     rhs_evals_of_run: u64,
 }
 
-/// A state near an orbit, as the beginning of the chord iteration.
+/// A state near an orbit, at which Broyden's method begins.
 #[derive(Clone, Copy)]
 struct Near<const N: usize> {
     orbit: Orbit<N>,
     /// A part of the march, from which the search checks that the march approaches the orbit.
     march: Marched<N>,
-    /// Monodromy matrix of the row's orbit, if known: computed at the row's tolerance, close enough to the orbit.
+    /// Monodromy matrix of the row's orbit, if known. The matrix is computed at the row's tolerance, at a
+    /// state close to the orbit.
     monodromy: Option<Matrix<N>>,
-    /// Residual before the last Newton or chord step, at the tolerance of this step. If no step was made, the
-    /// field contains the change of the state over the last marched period.
+    /// Residual before the last step of Newton's or Broyden's method, at the tolerance of this step. If no
+    /// step was made, the field contains the change of the state over the last marched period.
     residual: f64,
-    /// Length of the last step, if it was made with `monodromy`.
+    /// Change of the state in the last step, if this step was made with the matrix `monodromy`.
     step: f64,
     /// True if the march has settled on this orbit and Newton's iteration cannot improve the orbit. The
     /// measures of this orbit are then computed without further steps.
@@ -491,7 +493,7 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
     /// Finds the orbit at the middle tolerance and returns its measured means, or `None` if the orbit is not
     /// found.
     ///
-    /// If `near` was not found at the row's tolerance, the result of the chord steps replaces the orbit in
+    /// If `near` was not found at the row's tolerance, the result of Broyden's method replaces the orbit in
     /// `near`.
     async fn measure_middle(&mut self, near: &mut Near<N>) -> Option<Box<SumsOf<M, N>>> {
         let is_known = near.monodromy.is_some();
@@ -516,7 +518,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         end?.sums
     }
 
-    /// Makes chord steps at `factor` times the tolerances of the row, until the residual is at most `enough`.
+    /// Makes steps of Broyden's method at `factor` times the tolerances of the row, until the residual is at
+    /// most `enough`.
     ///
     /// Returns false if the residual stays larger than `enough`.
     async fn converge(&mut self, chord: &mut Chord<N>, factor: f64, enough: f64) -> bool {
@@ -529,7 +532,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         }
     }
 
-    /// Moves from a nearby orbit to the orbit of the row's tolerance, in chord steps, and measures its period.
+    /// Moves from a nearby orbit to the orbit of the row's tolerance by Broyden's method, and measures a
+    /// period of this orbit.
     async fn approach(&mut self, near: &Near<N>) -> Result<Measured<SumsOf<M, N>, N>, NoOrbit<N>> {
         let scale = self.exchange.start.scale;
         let Near { monodromy: mut matrix, mut residual, mut step, mut is_final, .. } = *near;
@@ -599,8 +603,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         Some(self.apply_map(Kind::Responses, y, (rtol / self.rtol()).max(1.0)).await?.monodromy)
     }
 
-    /// Returns the largest modulus of the multipliers of a subharmonic orbit of `periods` drive periods, at the state
-    /// of the march.
+    /// Returns the largest modulus of the Floquet multipliers of a subharmonic orbit of `periods` drive
+    /// periods, at the state of the march.
     async fn multiplier_over(&mut self, periods: u32) -> f64 {
         let mut monodromy = identity();
         let mut y = *self.march.state();
@@ -707,7 +711,8 @@ impl<M: Model<N>, const N: usize> Search<'_, M, N> {
         self.solver.rtol * self.tolerance_factor
     }
 
-    /// Returns the residual below which the monodromy matrix is the matrix of the row's orbit.
+    /// Returns the residual below which the monodromy matrix at a state counts as the monodromy matrix of the
+    /// row's orbit.
     fn matrix_residual(&self) -> f64 {
         self.solver.settle_tol.max(MATRIX_RESIDUAL * self.rtol().sqrt())
     }

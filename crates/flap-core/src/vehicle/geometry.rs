@@ -58,7 +58,8 @@ impl Wrench {
     pub(super) const ZERO: Wrench =
         Wrench { force: Vector3::new(0.0, 0.0, 0.0), torque: Vector3::new(0.0, 0.0, 0.0) };
 
-    /// Returns the load at the shoulder of a wing as a wrench about the origin of the body axes.
+    /// Converts the load at the shoulder of a wing to a force, and a torque about the origin of the body
+    /// axes.
     ///
     /// ```text
     /// F = Q f     M = Q m + p × F     Q = R_z(yaw) R_y(pitch) R_x(roll)

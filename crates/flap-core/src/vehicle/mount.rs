@@ -26,7 +26,8 @@ pub enum VehicleError {
     /// The vehicle has too many wings.
     #[error("{0} wings are too many: a vehicle has at most {MOST_WINGS}")]
     ManyWings(usize),
-    /// The name of a wing is not allowed, because the names of parameters cannot begin with this name.
+    /// The name of a wing is not allowed, because the name cannot be the first part of the names of
+    /// parameters.
     #[error(
         "`{0}` is not allowed as the name of a wing: use lower-case letters, digits and `_`, begin with a letter, and \
          do not use `difference`"

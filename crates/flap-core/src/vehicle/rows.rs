@@ -98,7 +98,7 @@ impl Wings {
         Ok(wings)
     }
 
-    /// Returns the row of the vehicle if the designs of all wings have rows, otherwise `None`.
+    /// Returns the row of the vehicle, or `None` if the row of a wing is still missing.
     fn row(&self, vehicle: &Vehicle) -> Option<Row> {
         let rows: Option<Vec<&Row>> =
             self.of_wing.iter().map(|&design| self.designs[design].row.as_ref()).collect();
@@ -142,7 +142,8 @@ impl Design {
     }
 }
 
-/// Source of points of the model, with one point for each wing design at each point of the vehicle.
+/// Source of the points that the wings' model computes. Each point of the vehicle needs one point for each
+/// set of wings with equal parameter values.
 struct WingJobs<'a> {
     vehicle: &'a Vehicle,
     jobs: &'a mut dyn Jobs,

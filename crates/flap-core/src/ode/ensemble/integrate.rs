@@ -10,7 +10,7 @@ use crate::ode::{Ending, Ode, Outcome, Start, Tolerances};
 pub struct Integrated<T, const N: usize> {
     /// Final state of the run, or the last state before a failure.
     pub y: [f64; N],
-    /// Sums over the steps of the run, which the observer has computed.
+    /// Sums that the observer has computed over the steps of the run.
     pub totals: T,
     /// Reason for the end of the run, and the numbers of steps and evaluations.
     pub outcome: Outcome,

@@ -107,8 +107,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         }
     }
 
-    /// Computes the first slope and the first step size in the lanes whose bits are set in `fresh`. Lanes
-    /// whose bits are not set do not change.
+    /// Computes the derivative ẏ at the start of the time span, and the first step size, in the lanes whose
+    /// bits are set in `fresh`. Lanes whose bits are not set do not change.
     #[inline(always)]
     pub(super) fn begin(&mut self, ode: &O, fresh: u64) {
         let fresh = R::mask(self.token, fresh);
@@ -203,8 +203,8 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         Events { landed, failed: exhausted | stuck }
     }
 
-    /// Computes the first slope of the next step again, in the lanes in which the run has reached the
-    /// switching surface.
+    /// In the lanes whose run has reached the switching surface, computes the derivative ẏ at the beginning
+    /// of the next step again.
     #[inline(always)]
     fn change_sides(&mut self, ode: &O, arrived: R::Mask) {
         let [crossed, slopes] = cross(ode, &self.constants, self.t, self.switching.side, &self.begins());
@@ -223,7 +223,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         self.switches = R::select(arrived, self.switches + 1.0, self.switches);
     }
 
-    /// Returns the states and responses at the beginning of the step.
+    /// Returns the states, and their responses to changes of the initial state, at the beginning of the step.
     #[inline(always)]
     fn begins(&self) -> Varied<[R; N], D> {
         let mut begins = Varied { motion: self.step.y[0], responses: [self.step.y[0]; D] };
@@ -250,7 +250,7 @@ impl<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> Lan
         self.step.y[0].get(lane)
     }
 
-    /// Returns the responses of the run in one lane.
+    /// Returns the responses of the run in one lane to changes of the initial state of this run.
     pub(super) fn responses(&self, lane: usize) -> [[f64; N]; D] {
         core::array::from_fn(|i| self.responses[i].y[0].get(lane))
     }

@@ -15,7 +15,7 @@ pub type Restart<const N: usize> = Start<(), N>;
 pub struct SpanEnd<'a, T, const N: usize> {
     /// State.
     pub y: &'a [f64; N],
-    /// Sums over the steps since the start of the run, which the observer has computed.
+    /// Sums that the observer has computed over the steps since the start of the run.
     pub totals: &'a T,
     /// Responses of the state to a change of each component of the initial state by [`Start::change`]. The
     /// slice is empty in the function [`run`](super::run), which computes no responses.

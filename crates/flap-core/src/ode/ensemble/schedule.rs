@@ -74,7 +74,7 @@ struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D:
     runs: LaneRuns<R, O, V, N, D>,
     /// Value of `steps` at the beginning of the run in each lane.
     began: [u64; MOST_LANES],
-    /// Number of attempted steps. One step in all lanes counts as one step.
+    /// Number of attempted steps. A step that is attempted in all lanes at the same time counts as one step.
     steps: u64,
     /// Number of steps of all runs that have ended.
     used: u64,
