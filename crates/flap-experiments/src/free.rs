@@ -10,7 +10,7 @@ use flap_core::simulate::{Experiments, ImpulseRequest, PointRun, Trajectory, Unf
 use crate::damped_sine::{self, DampedSine};
 use crate::spectrum::{Spectrum, SpectrumPeak};
 
-/// Largest number of samples of one motion, which are stored in memory.
+/// Largest number of samples of one motion. All samples are stored in memory.
 pub const INTERVALS_MAX: u32 = 5_000_000;
 
 /// Largest number of peaks of a spectrum.

@@ -21,7 +21,8 @@ pub struct SpectrumPeak {
     pub amplitude: f64,
 }
 
-/// Amplitude spectrum of a motion with a rectangular window, padded with zeros to eight times its length.
+/// Amplitude spectrum of a motion that is padded with zeros to eight times its length. The window is
+/// rectangular.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spectrum {
     /// Distance between bins (Hz). The first bin is at 0 Hz.

@@ -8,7 +8,7 @@ use crate::num::Lanes;
 /// Returns the derivative ẏ at time 0 and the first step size, by the algorithm of Hairer I, section II.4.
 ///
 /// `atol` contains the absolute tolerances of states and of responses. The algorithm evaluates the right-hand
-/// side twice. If the state or its slope is very small, for example at rest, the trial step is a
+/// side twice. If the state or the derivative ẏ is very small, for example at rest, the trial step is a
 /// ten-thousandth of the time span.
 #[inline(always)]
 pub(super) fn first_step<O: Ode<N>, R: Lanes, const N: usize, const D: usize>(
@@ -76,8 +76,8 @@ fn weighted_norm<R: Lanes, const N: usize, const D: usize>(
 ///
 /// All time spans of a periodic motion should be integrated with the same steps. With equal steps, the states
 /// at the ends of the time spans converge if the motion converges. If the steps differed, the states at the
-/// ends of the time spans would vary by the integration error. The result is therefore `last`, unless `last`
-/// and `proposed` differ by a factor of two or more.
+/// ends of successive time spans would differ by the integration error. The result is therefore `last`,
+/// unless `last` and `proposed` differ by a factor of two or more.
 #[inline(always)]
 pub(super) fn span_step(last: f64, proposed: f64) -> f64 {
     if 0.5 * last < proposed && proposed < 2.0 * last { last } else { proposed }

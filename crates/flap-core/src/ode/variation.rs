@@ -105,8 +105,8 @@ pub(super) fn slopes_outlined<O: Ode<N>, R: Real, const N: usize, const D: usize
 /// the new side of the motion.
 ///
 /// A change w of the state changes the switching function by dg, and therefore the time of the crossing by
-/// −dg/ġ. Between the old and the new time of the crossing, the time derivative of the changed motion is the
-/// derivative on the opposite side of the surface:
+/// −dg/ġ. Between the old and the new time of the crossing, the changed motion has the time derivative on the
+/// opposite side of the surface:
 ///
 /// ```text
 /// w⁺ = w + (f⁺ − f⁻) dg/ġ⁻

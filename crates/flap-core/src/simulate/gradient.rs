@@ -64,8 +64,8 @@ const SLOPE_ERROR: f64 = 3.0;
 /// Largest component of (1 − M)⁻¹ at which flap reports derivatives. M is the monodromy matrix in units of
 /// the states' typical sizes.
 ///
-/// If a component of (1 − M)⁻¹ is larger, the orbit is so close to a fold that the errors of derivatives
-/// would exceed 1e-4.
+/// If a component of (1 − M)⁻¹ exceeds this limit, the orbit is so close to a fold that the errors of
+/// derivatives would exceed 1e-4.
 const LARGEST_RESPONSE: f64 = 1e3;
 
 /// Component of (1 − M)⁻¹ above which flap tests if the orbit is close to a fold. Close to a fold, a small

@@ -7,8 +7,8 @@
 //! In most periods, only the states are integrated. One ensemble integrates these periods. When a lane of
 //! this ensemble becomes free, the ensemble starts the search of a new point. If a search requests more than
 //! the states, the search waits until many searches request the same quantities, or until no lane has work. A
-//! second ensemble then integrates the periods of the searches that wait. Meanwhile, the lanes of the first
-//! ensemble keep their state.
+//! second ensemble then integrates the periods of the searches that wait. Meanwhile, the first ensemble
+//! pauses the periods in its lanes.
 //!
 //! The same code runs the search of a single point, with one scalar instead of SIMD lanes.
 

@@ -2,8 +2,8 @@
 
 use crate::measure::multipliers::{Matrix, identity};
 
-/// Largest allowed condition number of a linear system. With a larger condition number, the solution may have
-/// no correct digit.
+/// Largest allowed condition number of a linear system. If the condition number exceeds this limit, the
+/// solution may have no correct digit.
 const MAX_CONDITION: f64 = 1e15;
 
 /// LU decomposition of a matrix with row pivoting.

@@ -29,8 +29,8 @@ pub trait Rows: Sync {
     /// Computes the rows of all points from `jobs` on the SIMD lanes of `backend`.
     ///
     /// [`Jobs::done`] receives the rows in the order in which their computations end. A row depends only on
-    /// its point and on `solver`. Other points and the order of the points have no effect on a row. All
-    /// backends of one arithmetic class compute the same row.
+    /// its point and on `solver`. Other points and the order of the points have no effect on a row. Two
+    /// backends compute the same row if they have the same [`Arithmetic`](crate::num::Arithmetic).
     fn run(&self, backend: Backend, solver: &SolverSettings, jobs: &mut dyn Jobs);
 
     /// Computes the row of one point with scalars, from rest or from the state `begin` (see

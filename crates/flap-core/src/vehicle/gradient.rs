@@ -12,7 +12,8 @@ impl Gradients for Vehicle {
 
     /// The vehicle's measures are linear functions of the wings' measures, except efficiency and lift over
     /// weight. The derivatives of the vehicle's measures are therefore computed as finite differences. For
-    /// the finite differences, each measure of a wing is changed in proportion to its derivative.
+    /// the finite differences, each measure of a wing is changed in proportion to the derivative of this
+    /// measure.
     fn gradient(
         &self,
         run: &PointRun<'_>,

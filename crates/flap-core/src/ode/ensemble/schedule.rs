@@ -69,7 +69,7 @@ fn run_varied<S: Simd, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: us
     )
 }
 
-/// The runs in the lanes, and the state of each lane.
+/// The runs in the lanes, the lanes that are in use, and the numbers of steps.
 struct Schedule<R: Lanes, O: Ode<N>, V: Observer<O, N>, const N: usize, const D: usize> {
     runs: LaneRuns<R, O, V, N, D>,
     /// Value of `steps` at the beginning of the run in each lane.
