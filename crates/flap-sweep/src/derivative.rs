@@ -8,7 +8,7 @@ use flap_core::vehicle::standing;
 /// Unit of the parameter change in a derivative: one per cent or one SI unit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Per {
-    /// The derivative is the change of the measure per one per cent of the parameter.
+    /// The derivative is the change of the measure if the parameter changes by one per cent.
     Cent,
     /// The derivative is the change of the measure per SI unit of the parameter.
     Unit,
@@ -100,9 +100,9 @@ pub fn meaning(of: &str, unit: &str, by: &str, per: Per) -> String {
     format!("change of {of}{unit} per {change} of {by}")
 }
 
-/// A parameter value counts as small if it is less than this fraction of the largest published value.
+/// A parameter value counts as small if it is less than this fraction of the largest value in the presets.
 ///
-/// The fraction is small, because some robots are far smaller than the published robots.
+/// The fraction is small, because some robots are far smaller than the robots of the presets.
 const SMALL: f64 = 1e-3;
 
 /// Returns the reference size of a parameter in SI units: a change of one per cent is one per cent of this
@@ -129,7 +129,8 @@ pub(crate) fn is_least(parameters: &[Parameter], values: &[f64], index: usize) -
     standing(parameters, values, index) == 0.0 && !range.contains(-f64::MIN_POSITIVE)
 }
 
-/// Returns `value` plus the fraction `share` of the reference size from [`size`].
+/// Returns `value` plus `share` times the reference size that [`size`] returned. Without a reference size,
+/// the function adds `share` times `value`.
 pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
     match size {
         Some(size) if size != value => share.mul_add(size, value),
@@ -140,9 +141,10 @@ pub(crate) fn moved(value: f64, size: Option<f64>, share: f64) -> f64 {
 /// Returns the typical size of a parameter in SI units.
 ///
 /// For a parameter of one wing or a left-right difference, the typical size is the reference size of the
-/// parameter of all wings. For a parameter with published values, the typical size is the largest published
-/// value. If the value of a parameter with published values is not small, the parameter has no typical size.
-/// For a parameter without published values, the typical size is a usual value for insect-scale robots.
+/// corresponding parameter of all wings. For a parameter with published values, the typical size is the
+/// largest published value. If the value of a parameter with published values is not small, the parameter has
+/// no typical size. For a parameter without published values, the typical size is a usual value for
+/// insect-scale robots.
 fn typical(simulator: &dyn Simulator, values: &[f64], index: usize) -> Option<f64> {
     let parameters = simulator.parameters();
     let parameter = &parameters[index];

@@ -8,7 +8,7 @@ use crate::notation::text::position;
 use crate::system::is_pipe_of_shell;
 
 /// Largest allowed number of bytes in a file that a person or an instrument writes: grids, devices, wing
-/// outlines, waveforms, motions, points of images.
+/// outlines, waveforms, motions, and tracked points.
 pub const MOST_BYTES: u64 = 16 << 20;
 
 /// Largest allowed number of bytes in a file that a program writes, such as a list of points or a sidecar.
@@ -78,8 +78,8 @@ pub fn bytes(path: &Path, most: u64) -> Result<Vec<u8>, InputError> {
 
 /// Opens the file at `path`.
 ///
-/// The path may be a pipe that the shell opened, such as `/dev/stdin` or `<(command)`. The data of the
-/// shell's pipe end when the command that writes into the pipe ends.
+/// The path may be a pipe that the shell opened, such as `/dev/stdin` or `<(command)`. The data in a pipe of
+/// the shell are complete when the command that writes into the pipe has ended.
 ///
 /// # Errors
 /// [`InputError`] if the path is not a file, or cannot be opened.
@@ -107,7 +107,7 @@ pub fn beginning(source: impl Read, most: u64) -> Result<Vec<u8>, InputError> {
     Ok(bytes)
 }
 
-/// Converts the bytes from [`beginning`] to text.
+/// Converts the result of [`beginning`] to text.
 ///
 /// # Errors
 /// [`InputError`] if there are more than `most` bytes, or the bytes are not text.

@@ -103,7 +103,8 @@ pub(super) fn report_repeats(axes: &[Placed], set: &[(usize, Range<usize>)], loo
     }
 }
 
-/// Reports that the axes have more points than a plan can have. The report points to the axis that exceeds the limit.
+/// Reports that the axes have more points than a plan can have. The report points to the first axis with
+/// which the number of points exceeds the limit.
 pub(super) fn report_too_many_points(error: &TooManyPoints, spans: &[Range<usize>], problems: &mut Problems) {
     let span = spans.get(error.axis).cloned().unwrap_or(0..0);
     let lengths: Vec<String> = error.lengths.iter().map(u64::to_string).collect();

@@ -33,7 +33,8 @@ struct Names {
     labels: Vec<String>,
 }
 
-/// The designs of a grid with their wings: the first design, and the values in which the designs differ.
+/// The designs of a grid with their wings: the first design, and the parameter values in which the designs
+/// differ.
 pub(super) struct Start {
     /// The first design. If a parameter has different values in the designs, the first design contains no
     /// value for this parameter.

@@ -1,5 +1,5 @@
-//! Reads the design whose parameters a grid file varies: a preset, or a device with its `[params]`. The
-//! module also reads the section `[params]` of grid files.
+//! Reads the design whose parameters a grid file varies: a preset, or a device file with its section
+//! `[params]`. The module also reads the section `[params]` of grid files.
 
 use std::ops::Range;
 use std::path::PathBuf;

@@ -111,8 +111,8 @@ pub struct Mistakes {
 }
 
 impl Mistakes {
-    /// Largest number of mistakes that are shown. If a file has more mistakes, it usually repeats the same
-    /// mistake.
+    /// Largest number of mistakes that are shown. A file with more mistakes than this number usually repeats
+    /// the same mistake.
     pub const MOST_SHOWN: usize = 20;
 
     /// Returns the number of mistakes that are not shown.
@@ -200,7 +200,7 @@ impl Problems {
         self.found.len() + self.only_counted
     }
 
-    /// Adds the mistakes that were found in another file.
+    /// Adds the mistakes that were found in a file that this file names.
     pub(super) fn absorb(&mut self, other: Problems) {
         self.only_counted += other.only_counted;
         for diagnostic in other.found {
@@ -233,7 +233,7 @@ impl Problems {
         })
     }
 
-    /// Returns the latest mistake, so that the caller can add help to this mistake.
+    /// Returns the mistake that was added last, so that the caller can add help to this mistake.
     pub(super) fn newest(&mut self) -> Option<&mut Diagnostic> {
         self.last.as_mut().or(self.found.last_mut())
     }

@@ -37,8 +37,8 @@ pub(super) struct Names<'n> {
     pub(super) device: Option<Vec<Vec<Value>>>,
     /// For each parameter that is not set, a description of the parameters that determine its value.
     pub(super) unset: Vec<Option<&'static str>>,
-    /// Parameters that the search for hover changes. The values of these parameters are unknown before flap
-    /// computes a point.
+    /// Parameters that the search for hover changes, so that their values are unknown before flap computes a
+    /// point.
     pub(super) inputs: Vec<usize>,
     /// Measures of the model, without the user's measures.
     pub(super) columns: Vec<Column>,
@@ -267,8 +267,8 @@ pub(super) fn derived_drafts<'t>(
     drafts
 }
 
-/// Reports derived parameters that are also varied or set. `set` contains lists of parameters, each with
-/// words for the message, such as "set under [params]".
+/// Reports derived parameters that are also varied or set. `set` contains lists of parameters. Before each
+/// list are words for the message, such as "set under [params]".
 pub(super) fn report_derived_twice(
     drafts: &[(usize, Entry<'_>)],
     axes: &[Placed],

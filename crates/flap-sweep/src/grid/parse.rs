@@ -196,7 +196,7 @@ fn plan(name: &str, text: &str, reader: Reader<'_>) -> Result<Plan, Mistakes> {
     }))
 }
 
-/// Contents of the sections of a grid file that describe the points.
+/// Contents of all sections that describe the points of a grid file.
 struct Points<'n> {
     base: Base,
     differences: Differences,
@@ -295,12 +295,12 @@ fn read_points<'n>(
     Points { base, differences, axes, sample_file, resonance, body, derived, conditions, unreached, names }
 }
 
-/// Returns the value that each parameter has without the sample. The value without the sample is the default
-/// mean of a normal distribution.
+/// Returns the value that each parameter would have if the grid file had no sample. If a normal distribution
+/// has no mean in the file, its mean is this value.
 ///
 /// If a parameter of one wing is not set, it has the value of the corresponding parameter of all wings. The
-/// rule does not apply if `moved`, the list of varied, sampled and derived parameters, contains the parameter
-/// of all wings.
+/// value for all wings is not used if the parameter of all wings is in `moved`, the list of varied, sampled
+/// and derived parameters.
 fn default_means(base: &Base, parameters: &[Parameter<'_>], moved: &[usize]) -> Vec<Value> {
     let mean = |index: usize| {
         let own = base.values[index];
@@ -322,7 +322,7 @@ fn report_unknown_keys(root: &[Entry<'_>], model: Option<&'static dyn Simulator>
     }
 }
 
-/// Returns true if `bytes` begin like a results file: with compressed data, with a Parquet file, or with the
+/// Returns true if `bytes` begin like a results file: like compressed data, like a Parquet file, or with the
 /// header line of a CSV table.
 fn looks_like_results(bytes: &[u8]) -> bool {
     const ZSTD: [u8; 4] = [0x28, 0xb5, 0x2f, 0xfd];

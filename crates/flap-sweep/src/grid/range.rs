@@ -164,7 +164,7 @@ fn counted(
 }
 
 /// If the ends of a logarithmic range are zero, have different signs or are too far apart, reports a mistake.
-/// Returns true if the ends have no mistake.
+/// Returns true if both ends of the range are allowed.
 fn check_log_ends(ends: &Ends<'_, '_>, problems: &mut Problems) -> bool {
     for (value, entry) in [(ends.from, ends.from_entry), (ends.to, ends.to_entry)] {
         if value == 0.0 {

@@ -73,8 +73,8 @@ pub(super) fn read(
     Some(Refine { measures, along: along?, max_points: max_points?, halvings: halvings? })
 }
 
-/// Returns the indices of the axes along which points are added: the axes of the listed parameters, or all
-/// axes that allow additional values.
+/// Returns the indices of the axes along which points are added: the axes of the parameters in the key
+/// `along`. Without this key, returns all axes that allow additional values.
 fn along(
     section: &Entry<'_>,
     listed: Option<&Entry<'_>>,

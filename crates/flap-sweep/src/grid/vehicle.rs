@@ -45,8 +45,8 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 /// The only allowed value of the key `trim`, for rows at hover.
 pub(super) const HOVER: &str = "hover";
 
-/// Group of the drive parameters. If a wing has its own design, the drive parameters of this design are
-/// ignored.
+/// Name of the group of drive parameters, in the list of parameters of a model. If a wing has its own design,
+/// the drive parameters of this design are ignored.
 const DRIVE: &str = "drive";
 
 /// Contents of the section `[vehicle]` that are necessary for reading the other sections of a grid file.
@@ -67,8 +67,8 @@ pub(super) struct VehicleSettings {
 const TOTAL_MASS: &str = "total_mass";
 
 impl VehicleSettings {
-    /// Adds the messages about drive frequencies in `other`, which were found when the section `[vehicle]`
-    /// was read for a different design.
+    /// Adds the messages about drive frequencies that `other` contains. `other` is the result of reading the
+    /// section `[vehicle]` for a different design.
     pub(super) fn append(&mut self, other: VehicleSettings) {
         self.frequencies.extend(other.frequencies);
     }
@@ -208,7 +208,7 @@ pub(super) fn read(
 /// Returns the parameters in `chosen` that affect no wing, because each wing has its own value of the
 /// parameter.
 ///
-/// `is_own` returns true if the grid file sets this parameter, which is a parameter of one wing.
+/// `is_own` returns true for each parameter of one wing that the grid file sets.
 pub(super) fn unreached(
     vehicle: &Vehicle,
     chosen: &[usize],

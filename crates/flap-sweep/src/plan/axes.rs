@@ -51,7 +51,8 @@ pub enum Values {
         /// Distribution that turns a coordinate of the sample into a value of the parameter.
         distribution: Distribution,
     },
-    /// Values of a sampled parameter with a normal distribution that is correlated with other parameters.
+    /// Values of a sampled parameter that has a normal distribution and is correlated with other sampled
+    /// parameters.
     Correlated {
         /// Points of the sample. All parameters of a sample use the same points.
         sample: Arc<SamplePoints>,
@@ -60,8 +61,8 @@ pub enum Values {
         /// Standard deviation of the distribution.
         sd: f64,
         /// Weights of independent normal random numbers. The weighted sum of the random numbers determines
-        /// the value of the parameter. The random numbers are computed from the first dimensions of the
-        /// sample, and the sum of the squared weights is 1.
+        /// the value of the parameter. The random numbers are computed from the first coordinates of each
+        /// point of the sample, and the sum of the squared weights is 1.
         weights: Vec<f64>,
     },
 }
@@ -195,7 +196,7 @@ pub struct Axes {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the axes have more than 2^63 points in total")]
 pub struct TooManyPoints {
-    /// Index of the axis that exceeds the limit.
+    /// Index of the first axis with which the number of points exceeds the limit.
     pub axis: usize,
     /// Length of each axis.
     pub lengths: Vec<u64>,

@@ -55,8 +55,8 @@ pub struct Condition {
 }
 
 impl Condition {
-    /// Returns true if the point with these values satisfies the condition. If the result is unknown, returns
-    /// `None`.
+    /// Returns true if a point with the parameter values `values` satisfies the condition. If the result is
+    /// unknown, returns `None`.
     pub fn holds(&self, values: &[f64]) -> Option<bool> {
         let value = self.expression.value(values);
         (!value.is_nan()).then_some(value != 0.0)

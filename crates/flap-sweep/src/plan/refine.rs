@@ -50,7 +50,7 @@ pub enum Error {
     /// The largest allowed error is a fraction of the difference between the largest and the smallest value
     /// of the measure in all rows.
     Share(f64),
-    /// The largest allowed error is a number in the unit of the column.
+    /// The largest allowed error is a number in the unit of the measure.
     Absolute(f64),
 }
 

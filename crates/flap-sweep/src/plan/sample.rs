@@ -85,7 +85,7 @@ impl SamplePoints {
         self.count
     }
 
-    /// Returns the coordinate of a point along a dimension, which is more than 0 and less than 1.
+    /// Returns the coordinate of a point along a dimension. The coordinate is more than 0 and less than 1.
     pub fn coordinate(&self, index: u64, dimension: usize) -> f64 {
         match &self.kind {
             Kind::Sobol(dimensions) => dimensions[dimension].coordinate(index),
@@ -109,7 +109,8 @@ pub(crate) fn coordinate(seed: u64, dimension: usize, index: u64) -> f64 {
     ((generator.next_u64() >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
 }
 
-/// Returns a random number for a dimension, which is the key for scrambling or permuting the points.
+/// Returns a random number, which is used as the key for scrambling or permuting the points along a
+/// dimension.
 pub(super) fn key(seed: u64, dimension: usize) -> u64 {
     stream(seed, dimension, true).next_u64()
 }
@@ -138,7 +139,7 @@ pub(super) struct Permutation {
 }
 
 impl Permutation {
-    /// Returns the permutation of the numbers below `count` that `key` determines.
+    /// Returns a permutation of the numbers from 0 to `count - 1`. Each `key` gives a fixed permutation.
     pub(super) fn new(count: u64, key: u64) -> Permutation {
         let bits = u64::BITS - count.saturating_sub(1).leading_zeros();
         Permutation { count, half_bits: bits.div_ceil(2).max(1), key }

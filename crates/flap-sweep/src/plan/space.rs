@@ -49,7 +49,7 @@ pub struct Plan {
 pub(crate) struct Space {
     /// The simulator that computes the points.
     pub(crate) robot: Robot,
-    /// The object that computes rows at the resonance, if each design is run at its own resonance.
+    /// The object that computes rows at the resonance, if flap computes each design at its own resonance.
     pub(crate) resonance: Option<AtResonance>,
     /// The object that computes rows at hover or with the damping matrix, if the grid file requests such
     /// rows.
@@ -130,7 +130,8 @@ impl Plan {
         self.robot().parameters()
     }
 
-    /// Returns the object that computes rows at the resonance, if each design is run at its own resonance.
+    /// Returns the object that computes rows at the resonance, if flap computes each design at its own
+    /// resonance.
     pub fn resonance(&self) -> Option<&AtResonance> {
         self.space.resonance.as_ref()
     }
@@ -297,8 +298,8 @@ impl Plan {
         Point { begin, ..Point::at_rest(index, self.values(index, None)) }
     }
 
-    /// Returns the values of point number `index` after a change of `parameter`. `moved` computes the new
-    /// value of the parameter, and the derived parameters are computed from the new value.
+    /// Returns the parameter values of point number `index` after a change of `parameter`. `moved` computes
+    /// the new value of the parameter, and the derived parameters are computed from the new value.
     pub(crate) fn values_with(&self, index: u64, parameter: usize, moved: impl Fn(f64) -> f64) -> Vec<f64> {
         self.values(index, Some((parameter, &moved)))
     }

@@ -44,7 +44,7 @@ impl Uncertainty {
     }
 
     /// Sets or removes the standard error of a parameter. The correlations of the parameter are removed,
-    /// because they refer to its earlier value.
+    /// because they refer to the earlier value of the parameter.
     pub(crate) fn set(&mut self, parameter: usize, error: Option<f64>) {
         self.errors.retain(|(index, _)| *index != parameter);
         self.correlations.retain(|correlation| !correlation.between.contains(&parameter));

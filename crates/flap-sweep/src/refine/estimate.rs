@@ -1,6 +1,7 @@
 //! Estimates the error of linear interpolation along an edge of a box between points.
 
-/// A point on a line: the coordinate and the measure of the point. An unknown measure is NaN.
+/// A point on a line: the coordinate of the point along the line, and the value of a measure at the point. If
+/// the value is unknown, it is NaN.
 pub(super) type Sample = (f64, f64);
 
 /// Largest allowed error of a measure, and the range of the measure over all rows, both in the unit of the measure.
@@ -9,11 +10,12 @@ pub(super) struct Tolerance {
     pub(super) range: f64,
 }
 
-/// If the measure is smooth, the estimates from the parabolas on the two sides of an edge usually differ by
-/// at most this factor. A larger factor shows that only one of the two parabolas contains a jump or a kink.
+/// If the measure is smooth, the parabolas on the two sides of an edge give two errors, whose ratio is
+/// usually at most this number. A larger ratio shows that only one of the two parabolas contains a jump or a
+/// kink.
 const MOST_APART: f64 = 8.0;
 
-/// An edge of a box, with the nearest points on the line through the edge.
+/// An edge of a box, with the nearest point on each side of the edge, on the line through the edge.
 pub(super) struct Edge {
     pub(super) before: Option<Sample>,
     pub(super) ends: [Sample; 2],
@@ -27,18 +29,21 @@ impl Edge {
     /// Returns the estimated error of linear interpolation between the ends of the edge, divided by the
     /// allowed error.
     ///
-    /// If the measure is known at one end only, the estimate is half of the range of the measure. If the
-    /// measure is unknown at both ends, the estimate is zero.
+    /// If the measure is known at one end of the edge only, the estimated error is half of the range of the
+    /// measure. If the measure is unknown at both ends of the edge, the estimated error is zero.
     ///
     /// For a parabola through the edge's ends and a neighbouring point, the interpolation error at the middle
-    /// of the edge is h² f″/8. The estimate is the mean of the errors for two parabolas, one through the
-    /// neighbouring point on each side. Beside a jump or a kink, only one of the two parabolas contains the
-    /// jump or kink. The larger of the two parabolas' errors therefore counts as at most [`MOST_APART`] times
-    /// the smaller error. If the edge connects two neighbouring values of the axis, the estimate is the
-    /// larger error, because no point between these values is known.
+    /// of the edge is h² f″/8. The estimated error is the mean of the errors of two parabolas, one through
+    /// the neighbouring point on each side of the edge. If the measure has a jump or a kink beside the edge,
+    /// only the parabola on this side contains the jump or kink. In the mean, the larger error therefore
+    /// counts as at most [`MOST_APART`] times the smaller error. If the edge connects two neighbouring values
+    /// of the axis, no point between these values is known. For such an edge, the estimated error is
+    /// therefore the larger of the errors of the two parabolas.
     ///
-    /// If the slope along the edge is more than twice the largest slope beside the edge, the measure may have
-    /// a jump. For a possible jump, the estimate is half of the change of the measure along the edge.
+    /// The function also compares the slope of the measure along the edge with the slopes from the ends of
+    /// the edge to the neighbouring points. If the slope along the edge is more than twice the largest of
+    /// these slopes, the measure may have a jump. For a possible jump, the estimated error is half of the
+    /// change of the measure along the edge.
     pub(super) fn error(&self, tolerance: &Tolerance) -> f64 {
         if tolerance.error > 0.0 { self.size(tolerance.range) / tolerance.error } else { 0.0 }
     }

@@ -77,9 +77,9 @@ pub(super) struct Mesh {
     measured: Vec<f64>,
     /// Index of the point at each place. Points are numbered in the order in which they were added.
     numbers: HashMap<Place, usize>,
-    /// For each axis of the mesh, the lines of points that are parallel to the axis. The key of a line is the
-    /// place on the line at position 0. A line maps the position of each point along the axis to the index of
-    /// the point.
+    /// For each axis of the mesh, the lines of points that are parallel to the axis. The key in the map is
+    /// the place at which the line begins, with the position 0 along the axis. A line maps the position of
+    /// each point along the axis to the index of the point.
     lines: Vec<HashMap<Place, BTreeMap<u64, usize>>>,
     cells: Vec<Cell>,
 }
@@ -89,9 +89,9 @@ struct Halving {
     /// Priority of the halving: the estimated error of the box times the geometric mean of the side lengths
     /// of the box. Boxes with the highest priority are halved first.
     ///
-    /// If boxes were halved in the order of the error alone, all points would be added at jumps, where
-    /// halving does not decrease the error. If boxes were halved in the order of the error times the volume,
-    /// the largest error would decrease slowly.
+    /// If the error alone determined the order, all points would be added at jumps of a measure, where
+    /// halving does not decrease the error. If the error times the volume determined the order, the largest
+    /// error would decrease slowly.
     gain: f64,
     cell: usize,
     axis: usize,
@@ -271,7 +271,8 @@ mod tests {
 
     const HALVINGS: u32 = 6;
 
-    /// Refines a mesh over the unit square, with the values of the function `measure` at its points.
+    /// Refines a mesh over the unit square, with the values of the function `measure` at the points of the
+    /// mesh.
     fn refined(side: u64, most: usize, share: f64, measure: impl Fn(f64, f64) -> f64) -> (Mesh, usize) {
         let mut mesh = Mesh::new(vec![Side::Even(side), Side::Even(side)], 1, HALVINGS, 1);
         let whole = ((side - 1) << HALVINGS) as f64;

@@ -2,11 +2,13 @@
 //!
 //! The points of the axes are the corners of boxes. When the rows of all corners exist, flap estimates the
 //! error of a multilinear interpolation within each box (`estimate`). Boxes with large errors are halved, and
-//! the midpoints of their edges are the next points (`mesh`). Points are added in rounds until all estimated
-//! errors are small enough, or the plan has `max_points` points.
+//! the midpoints of their edges are the next points (`mesh`). In each round, flap estimates the errors, adds
+//! points and computes their rows. The rounds end when all estimated errors are small enough, or the plan has
+//! `max_points` points.
 //!
-//! The points of a round depend on the settings and on the written rows of earlier rounds. A resumed run
-//! reads the earlier rows from its results file and therefore adds the same points.
+//! The points that a round adds depend only on the settings and on the rows that were written before this
+//! round. A resumed run reads these rows from its results file, and therefore adds the same points as a run
+//! without an interruption.
 
 mod estimate;
 mod mesh;
@@ -25,12 +27,12 @@ use crate::table::layout::Layout;
 use estimate::Tolerance;
 use mesh::{Mesh, Place, Side};
 
-/// A refinement that has not ended, with the measures of the rows so far.
+/// A refinement that has not ended, with the measures of the rows that it has received.
 #[derive(Clone, Debug)]
 pub struct Refinement {
     refine: Refine,
-    /// For each axis of the plan: its length, and its index among the axes along which points are added. If
-    /// no points are added along the axis, the index is `None`.
+    /// For each axis of the plan: the number of its values, and the index of the axis among the axes along
+    /// which points are added. If no points are added along the axis, the index is `None`.
     axes: Vec<(u64, Option<usize>)>,
     /// Indices of the columns that contain the measures of the refinement.
     columns: Vec<usize>,
@@ -44,7 +46,7 @@ pub struct Refinement {
 /// Result of a refinement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Refined {
-    /// Number of rounds in which points were added.
+    /// Number of times that flap estimated the errors of boxes and then added points.
     pub rounds: u64,
     /// Number of points that the refinement added to the points of the axes.
     pub added: u64,
@@ -59,7 +61,7 @@ pub struct Refined {
 impl Refinement {
     /// Returns the refinement of `plan` at its beginning, when it has not received any rows.
     ///
-    /// Returns `None` if the plan has no refinement, runs only some of its points, or has rows without a
+    /// Returns `None` if the plan has no refinement, only some of its points are selected, or its rows lack a
     /// measure of the refinement.
     pub fn of(plan: &Plan) -> Option<Refinement> {
         let refine = plan.refine().filter(|_| *plan.selection() == Selection::All)?.clone();
@@ -88,8 +90,8 @@ impl Refinement {
         }
     }
 
-    /// Returns the points of the next round of the refinement. Each point is a list of positions, one along
-    /// each axis.
+    /// Estimates the errors of boxes, and returns the points that the refinement adds next. Each point is a
+    /// list of positions, one along each axis.
     ///
     /// The result is empty if the refinement has ended, or if a row of the earlier points is missing.
     pub fn next_round(&mut self) -> Vec<Vec<f64>> {
@@ -168,8 +170,9 @@ fn side(axis: &Axis) -> Side {
     }
 }
 
-/// Repeats the refinement of an interrupted run from its written rows. Returns the plan with the points of
-/// all rounds that had begun, and the state of the refinement after the first `done` points.
+/// Repeats the refinement of an interrupted run from its written rows. Returns the plan with all points that
+/// the interrupted run had added. Also returns the state of the refinement after the rows of the first `done`
+/// points.
 ///
 /// `rows` contains the written rows of the plan, in the order of the points.
 ///

@@ -49,7 +49,7 @@ pub struct Gap {
     pub to: f64,
     /// Number of frequencies in the interval at which the search has computed a point.
     pub points: usize,
-    /// Status of the motion, which is the same at all frequencies of the interval.
+    /// Status that the motions have at all frequencies of the interval.
     pub status: Status,
 }
 

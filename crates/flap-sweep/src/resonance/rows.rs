@@ -86,7 +86,7 @@ impl Rows for AtResonance {
         sequence::run_all(self.target.model, backend, solver, &mut Designs { at: self, jobs });
     }
 
-    /// The search for a resonance begins at rest, so `begin` is ignored.
+    /// Ignores the initial state `begin`, because the search for a resonance chooses its own initial states.
     fn run_point(&self, run: &PointRun<'_>, _begin: Option<&[f64]>) -> Row {
         let design = Point::at_rest(0, run.values.to_vec());
         let search = Search::new(&self.target, design, Peaks::HIGHEST);

@@ -7,7 +7,8 @@
 //!
 //! The row at a resonance describes the motion that begins at rest, like every row of a sweep. If this motion
 //! differs from the motion that the search found at the same frequency, the design has more than one orbit.
-//! For a design with more than one orbit, the peaks are located again, and all points begin at rest.
+//! For a design with more than one orbit, the peaks are located again, and in this second search all motions
+//! begin at rest.
 
 use flap_core::parameter::Invalid;
 use flap_core::simulate::{Point, Row, Status, Unfinished};
@@ -37,8 +38,8 @@ pub(super) struct Peaks {
 }
 
 impl Peaks {
-    /// Locates the highest peak on the grid, and each peak whose true height between the points of the grid
-    /// may be larger.
+    /// Locates the highest peak on the grid of frequencies. Also locates each lower peak that may exceed the
+    /// highest peak between two frequencies of the grid.
     pub(super) const HIGHEST: Peaks = Peaks { contender: 0.15, from_rest: 1 };
 
     /// Locates all peaks, but at most [`MOST_TOPS`] peaks.
@@ -64,8 +65,8 @@ pub(super) struct Search<'a> {
     rhs_evals: u64,
     /// The located peaks, each as `[frequency, value]`, beginning with the highest peak.
     tops: Vec<[f64; 2]>,
-    /// Rows of the peaks, computed from rest. If there is no peak, the list contains one row that shows the
-    /// reason.
+    /// Rows of the peaks, computed from motions that begin at rest. If there is no peak, the list contains
+    /// one row that shows the reason.
     rows: Vec<Row>,
 }
 
@@ -83,7 +84,7 @@ pub(super) struct Seen {
 pub(super) struct Found {
     /// Lowest and highest frequency of the searched range (Hz).
     pub(super) ends: [f64; 2],
-    /// Peaks that were computed from rest, each as `[frequency, value]` with its row.
+    /// Peaks as `[frequency, value]`, each with the row of the motion that begins at rest.
     pub(super) peaks: Vec<([f64; 2], Row)>,
 }
 

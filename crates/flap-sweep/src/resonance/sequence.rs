@@ -14,7 +14,8 @@ use flap_core::num::Backend;
 use flap_core::simulate::{Jobs, Point, PointRun, Row, Rows, SolverSettings};
 
 /// Connection between a computation and the code that simulates the points of the computation. The
-/// computation stores points in the exchange, and the code stores the rows of these points.
+/// computation stores points in the exchange, and the simulating code stores the rows of these points in the
+/// exchange.
 #[derive(Default)]
 pub struct Exchange {
     points: Cell<Vec<Point>>,
@@ -23,7 +24,8 @@ pub struct Exchange {
 
 impl Exchange {
     /// A computation calls this function to run points. The function waits for the rows of the points, and
-    /// returns the rows in the order of the points. The points can have any indices.
+    /// returns the rows in the order of the points. The indices of the points have no effect on the order of
+    /// the rows.
     pub async fn rows(&self, points: Vec<Point>) -> Vec<Row> {
         if points.is_empty() {
             return Vec::new();
@@ -70,8 +72,8 @@ impl<'a, T> Sequence<'a, T> {
         }
     }
 
-    /// Runs the computation on scalars. The result is the same as the result of [`run_all`], bit for bit. The
-    /// settings for the points are in `run`, but the parameter values are in the points.
+    /// Runs the computation on scalars. The result is the same as the result of [`run_all`], bit for bit.
+    /// Each point is computed with its own parameter values, and with the settings of `run`.
     pub fn run_alone(self, rows: &dyn Rows, run: &PointRun<'_>) -> T {
         let row = |point: &Point| {
             rows.run_point(&PointRun { values: &point.values, ..*run }, point.begin.as_deref())
@@ -88,8 +90,8 @@ pub trait SequenceSource<'a> {
 
     /// Returns the next computation, or `None` if no computation is available at present.
     ///
-    /// If `idle` is true, no point is being run, so the call may wait for a computation. If `idle` is true,
-    /// `None` means that all computations have been returned.
+    /// If `idle` is true, no point is being computed, so the call may wait for a computation. If `idle` is
+    /// true, `None` means that all computations have been returned.
     fn next(&mut self, idle: bool) -> Option<Sequence<'a, Self::Output>>;
 
     /// Receives the result of a computation.
@@ -119,11 +121,11 @@ struct Interleaved<'s, 'a, S: SequenceSource<'a>> {
     open: Vec<Option<Open<'a, S::Output>>>,
 }
 
-/// An unfinished computation, whose points wait or are being run.
+/// An unfinished computation, whose latest points wait for a lane or are being simulated.
 struct Open<'a, T> {
     sequence: Sequence<'a, T>,
-    /// Points that are not being run yet, in reverse order. The number before a point is its index in the
-    /// latest list of points of the computation.
+    /// Points whose simulation has not begun, in reverse order. The number in front of each point is the
+    /// index of the point in the latest list of points of the computation.
     waiting: Vec<(usize, Point)>,
     /// Row of each point, or `None` if the row has not been received.
     rows: Vec<Option<Row>>,
@@ -131,7 +133,8 @@ struct Open<'a, T> {
 }
 
 impl<'a, T> Open<'a, T> {
-    /// Continues a computation. Returns the computation with its next points, or its result if it has ended.
+    /// Continues a computation. Returns the result of the computation if the computation has ended, and
+    /// otherwise the computation with its next points.
     fn begin(mut sequence: Sequence<'a, T>) -> ControlFlow<T, Open<'a, T>> {
         let points = match sequence.next() {
             Continue(points) => points,

@@ -110,7 +110,8 @@ impl Target {
 }
 
 /// Returns the index of the drive frequency among the parameters of a model, and the index of the objective
-/// among its columns. If the model has no drive frequency or no column of the objective, returns `None`.
+/// among the columns of the model. If the model has no drive frequency or no column of the objective, returns
+/// `None`.
 pub(super) fn places(model: &dyn Simulator, of: Objective) -> Option<[usize; 2]> {
     let frequency = model.parameters().iter().position(|parameter| parameter.name == DRIVE_FREQUENCY)?;
     let objective = model.columns().iter().position(|column| column.name == of.column())?;

@@ -10,7 +10,7 @@ use crate::plan::Plan;
 use crate::plan::gradient::Gradient;
 
 /// To compute derivatives of the formulas under `[measure]`, flap changes a parameter by this fraction of its
-/// size. The fraction is larger than [`Change::SHARE`], so that rounding errors have less effect.
+/// reference size. The fraction is larger than [`Change::SHARE`], so that rounding errors have less effect.
 const OWN_SHARE: f64 = 1e-5;
 
 /// Adds the measures of the plan and the derivatives to `row`. The model has computed `row` for `point`.

@@ -48,8 +48,8 @@ pub fn chunk(
 }
 
 impl Chunk {
-    /// Returns the chunk with `begin` as the position of its first point. A chunk needs a new position if its
-    /// points are part of a larger plan.
+    /// Returns the chunk with `begin` as the position of its first point. If the chunk was computed from a
+    /// part of a plan, `begin` is the position of its first point in the whole plan.
     pub fn beginning_at(self, begin: u64) -> Chunk {
         Chunk { begin, ..self }
     }

@@ -66,13 +66,14 @@ impl Identity {
         }
     }
 
-    /// Returns true if both identities have the same version of flap, the same build and the same arithmetic.
+    /// Returns true if this identity and `other` have the same version of flap, the same build and the same
+    /// arithmetic.
     pub fn is_by_program_of(&self, other: &Identity) -> bool {
         self.flap == other.flap && self.build == other.build && self.arithmetic == other.arithmetic
     }
 
-    /// Returns a description of each difference between this identity and `other`. If the list is empty, both
-    /// identities give equal rows.
+    /// Returns a description of each difference between this identity and `other`. If the list is empty, runs
+    /// with these two identities compute equal rows.
     pub fn differences(&self, other: &Identity) -> Vec<String> {
         let mut differences = Vec::new();
         if self.grid != other.grid {

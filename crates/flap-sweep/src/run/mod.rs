@@ -61,9 +61,9 @@ pub struct RunOptions {
     pub threads: NonZeroUsize,
     /// Largest number of points that may be computed ahead of the last returned row.
     ///
-    /// A slow point delays the rows of all later points. With a larger window, the computation of later
-    /// points can continue longer while a slow point is computed. A row of 40 measures needs about half a
-    /// kilobyte of memory.
+    /// A slow point delays the rows of all later points. If more points may be computed ahead, the
+    /// computation of later points can continue longer while a slow point is computed. A row of 40 measures
+    /// needs about half a kilobyte of memory.
     pub window: usize,
     /// After a request to stop, flap finishes the points whose computation has begun, if they need no more
     /// than this time. flap abandons the points whose computation takes longer.
@@ -84,8 +84,9 @@ impl RunOptions {
 }
 
 impl Default for RunOptions {
-    /// Returns the best instruction set of the machine, one thread per core, and a window of a few megabytes.
-    /// After a stop, the last points have 0.4 s to finish.
+    /// Returns the best instruction set of the machine, one thread per core, and a buffer of a few megabytes
+    /// for finished rows. After a request to stop, the points whose computation has begun have 0.4 s to
+    /// finish.
     fn default() -> Self {
         let threads = thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         RunOptions { instructions: Backend::best(), threads, window: 16_384, grace: GRACE }

@@ -68,7 +68,7 @@ pub fn alone<'a>(
 }
 
 /// Returns the selected point at `position`. If a condition excludes the point or its parameter values are
-/// impossible, the error value contains the outcome of the point.
+/// impossible, `Err` contains the outcome of the point.
 fn taken(plan: &Plan, position: u64) -> Result<Point, Outcome> {
     let point = plan.selected_point(position);
     match plan.judge(&point.values) {
@@ -80,7 +80,7 @@ fn taken(plan: &Plan, position: u64) -> Result<Point, Outcome> {
 }
 
 /// Adds the columns of the plan to the row that the model computed for a point. Returns `None` if the run was
-/// interrupted. The error value describes a mistake in the program of the model.
+/// interrupted. `Err` describes a mistake in the program of the model.
 fn completed(
     plan: &Plan,
     options: &RunOptions,

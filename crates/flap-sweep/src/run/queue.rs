@@ -2,12 +2,12 @@
 //! queue, in the order of the units.
 //!
 //! The queue cannot deadlock, for the following reasons. A worker thread waits only if the thread has no
-//! unfinished unit of work and the window is full. If the next outcome is in the window, the collecting
-//! thread removes the outcome, and the window has room again. If the next outcome is missing, a worker is
-//! still computing this outcome, and a worker that computes does not wait. Each worker calls `leave` at its
-//! end, even after a panic. If a worker ends before its units of work are finished, the run fails. The
-//! collecting thread waits only while at least one worker runs. When a run is dropped, its workers are
-//! aborted.
+//! unfinished unit of work and the buffer for outcomes (the [`Window`]) is full. If the next outcome is in
+//! the buffer, the collecting thread removes the outcome, and the buffer has room again. If the next outcome
+//! is missing, a worker is still computing this outcome, and a worker that computes does not wait. Each
+//! worker calls `leave` at its end, even after a panic. If a worker ends before its units of work are
+//! finished, the run fails. The collecting thread waits only while at least one worker runs. When a run is
+//! dropped, its workers are aborted.
 //!
 //! After a stop, workers have a short time to finish their units of work. Units of work that are not finished
 //! after this time are discarded.
@@ -23,11 +23,12 @@ use super::{RunError, RunOptions};
 /// Lower and upper limit of the time for which [`Queue::next_batch`] waits for outcomes.
 const TURN: [Duration; 2] = [Duration::from_millis(10), Duration::from_millis(100)];
 
-/// If the window contains this number of outcomes, [`Queue::next_batch`] does not wait for more outcomes.
+/// If at least this number of outcomes can be collected, [`Queue::next_batch`] does not wait for more
+/// outcomes.
 const BATCH: usize = 64;
 
-/// Largest number of outcomes in a batch. The size of a batch is limited so that the window soon has room for
-/// new units of work.
+/// Largest number of outcomes that one call of [`Queue::next_batch`] returns. The number is limited so that
+/// workers can soon begin new units of work.
 const MOST_AT_ONCE: usize = 1024;
 
 /// The units of work of a run, and the outcomes of finished units.
@@ -39,7 +40,7 @@ pub(super) struct Queue<T> {
     /// True if workers must abandon their unfinished units of work.
     cancelled: AtomicBool,
     state: Mutex<State<T>>,
-    /// Notifies waiting workers that the window has room or that the run has ended.
+    /// Notifies waiting workers that the buffer for outcomes has room or that the run has ended.
     room: Condvar,
     /// Notifies the collecting thread that outcomes are available or that a worker has ended.
     outcomes: Condvar,
@@ -77,8 +78,9 @@ impl<T> Queue<T> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Assigns the next unit of work and returns its number. If the window is full and `may_wait` is false,
-    /// the function returns `None`. `None` also means that no units are left or that the run has ended.
+    /// Assigns the next unit of work and returns its number. If the buffer for outcomes is full and
+    /// `may_wait` is false, the function returns `None`. `None` also means that no units are left or that the
+    /// run has ended.
     pub(super) fn next(&self, may_wait: bool) -> Option<u64> {
         let mut state = self.lock();
         loop {
@@ -144,8 +146,8 @@ impl<T> Queue<T> {
         self.room.notify_all();
     }
 
-    /// Records that the rows of the last batch are written, and waits a short time for more outcomes (see
-    /// [`TURN`]).
+    /// Records that the outcomes that the previous call returned are written, and waits a short time for more
+    /// outcomes (see [`TURN`]).
     ///
     /// Returns the new outcomes and the number of all finished units of work. Returns `None` if all workers
     /// have ended and no outcomes are left.
@@ -188,8 +190,8 @@ impl<T> State<T> {
     }
 }
 
-/// The window contains all units of work that are assigned to a worker but not yet written. The window
-/// contains at most `capacity` units.
+/// Buffer for the outcomes of all units of work that are assigned to a worker but whose outcomes are not yet
+/// written. The buffer has room for the outcomes of `capacity` units.
 ///
 /// ```text
 /// 0 ── written ──── taken ──────── handed_out ──── total
@@ -206,13 +208,13 @@ pub(super) struct Window<T> {
     taken: u64,
     handed_out: u64,
     outcomes: VecDeque<Option<T>>,
-    /// Number of outcomes in the window that the collecting thread has not taken yet.
+    /// Number of finished outcomes that the collecting thread has not taken yet.
     waiting: usize,
 }
 
 impl<T> Window<T> {
-    /// Returns an empty window for the units of work with the numbers `units`. All units with smaller numbers
-    /// have been written.
+    /// Returns an empty buffer for the outcomes of the units of work with the numbers `units`. The outcomes
+    /// of units with smaller numbers have already been written.
     pub(super) fn new(units: Range<u64>, capacity: usize) -> Window<T> {
         Window {
             capacity: capacity.max(1) as u64,
@@ -230,8 +232,8 @@ impl<T> Window<T> {
         self.handed_out == self.total
     }
 
-    /// Assigns the next unit of work and returns its number. Returns `None` if no unit is left or the window
-    /// is full.
+    /// Assigns the next unit of work and returns its number. Returns `None` if no unit is left or the buffer
+    /// for outcomes is full.
     pub(super) fn hand_out(&mut self) -> Option<u64> {
         if self.is_exhausted() || self.is_full() {
             return None;
@@ -255,8 +257,8 @@ impl<T> Window<T> {
         }
     }
 
-    /// Returns true if the next outcome is finished, and the window is full or contains at least `enough`
-    /// outcomes.
+    /// Returns true if the next outcome is finished, and the buffer is full or contains at least `enough`
+    /// finished outcomes.
     pub(super) fn is_worth_taking(&self, enough: usize) -> bool {
         let next_is_here = matches!(self.outcomes.front(), Some(Some(_)));
         next_is_here && (self.waiting >= enough || self.is_full())
@@ -278,14 +280,14 @@ impl<T> Window<T> {
         }
     }
 
-    /// Records that all outcomes that were removed from the window are written. For each written outcome, the
-    /// window then has room for one new unit of work.
+    /// Records that all outcomes that were removed from the buffer are written. For each written outcome, the
+    /// buffer then has room for the outcome of one new unit of work.
     pub(super) fn mark_written(&mut self) {
         self.written = self.taken;
     }
 
     /// Returns the number of all finished units of work, including units whose outcomes were already removed
-    /// from the window.
+    /// from the buffer.
     pub(super) fn finished(&self) -> u64 {
         self.taken + self.waiting as u64
     }

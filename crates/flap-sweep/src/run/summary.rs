@@ -10,8 +10,8 @@ use crate::refine::Refined;
 use crate::resonance::RESONANCE_MARGIN_HZ;
 use crate::vehicle::{HOVER_RESIDUAL, TRIM_LIMIT};
 
-/// Number of rows with each status. In files, the numbers of rows are a table whose keys are the names of the
-/// statuses.
+/// Number of rows with each status. In journals and sidecars, the numbers of rows are a TOML table whose keys
+/// are the names of the statuses.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "HashMap<Status, u64>", into = "BTreeMap<&'static str, u64>")]
 pub struct Counts([u64; Status::ALL.len()]);

@@ -140,8 +140,8 @@ pub(crate) struct Worker<'a, T> {
 impl<T> Worker<'_, T> {
     /// Returns the number of the next unit of work, or `None` if no unit is available at present.
     ///
-    /// `idle` is true if the worker has no unfinished units of work. If `idle` is true, the call may wait,
-    /// and after the result `None` the worker must end.
+    /// `idle` is true if the worker has no unfinished units of work. If `idle` is true, the call may wait. If
+    /// the call then returns `None`, the worker must end.
     pub(crate) fn next(&mut self, idle: bool) -> Option<u64> {
         if self.fault.is_some() {
             return None;

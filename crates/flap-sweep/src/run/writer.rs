@@ -15,8 +15,8 @@ use crate::table::layout::{Cell, Layout};
 
 /// A file or a table in memory to which rows are written in the order of the points.
 ///
-/// The caller first calls `begin`, then `write`, `after_point` and `flush` any number of times, and at the
-/// end `finish`. After an error, the caller calls no further functions of the sink.
+/// The caller calls `begin` once, then `write`, `after_point` and `flush` any number of times, and finally
+/// `finish` once. After an error, the caller calls no further functions of the sink.
 pub trait Sink {
     /// Writes the names of the columns, if the format of the output has a header.
     ///

@@ -17,8 +17,8 @@ use crate::notation::value::{self, UnitOf};
 use crate::plan::axes::{Axis, Values};
 use crate::plan::{PointsFile, Source};
 
-/// Largest number of wrong cells and lines that are reported. If a file has more mistakes, its columns are
-/// probably wrong.
+/// Largest number of wrong cells and lines that are reported. If a file has more wrong cells and lines than
+/// this number, its columns are probably wrong.
 const MOST_CELLS: usize = 10;
 
 /// Largest allowed number of bytes in a line of the file. A typical line is much shorter than this limit.
@@ -59,11 +59,12 @@ pub(super) fn read(
     Some((Placed { axis, span: section.key_span.clone(), keys, with_units }, file))
 }
 
-/// A column of the file of points.
+/// A column of the file that lists the points of the sample.
 struct Column<'t, 'p> {
     index: usize,
     parameter: &'p Parameter<'p>,
-    /// Unit in the heading of the column. The numbers in the cells of the column are in this unit.
+    /// Unit in the heading of the column. The numbers in the cells of the column are in the unit of the
+    /// heading.
     unit: Option<&'t str>,
 }
 

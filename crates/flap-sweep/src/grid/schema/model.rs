@@ -18,8 +18,8 @@ use crate::plan::sample::SamplePoints;
 use crate::resonance::{DRIVE_FREQUENCY, measures};
 use crate::table::layout::{Fixed, RUN};
 
-/// Returns JSON schemas of keys that are the same for all parameters, such as `n` of a range and `sd` of a
-/// distribution.
+/// Returns JSON schemas of keys such as `n` of a range and `sd` of a distribution. The schemas of these keys
+/// are the same for all parameters.
 pub(super) fn shared() -> Map<String, Value> {
     let keys = ["n", "step", "scale", "sd", "relative_sd", "source"];
     sections::properties(keys, |key| match key {

@@ -1,4 +1,4 @@
-//! JSON schemas of the sections of a grid file that are the same for all models, and small schemas for use in
+//! JSON schemas that are the same for all models: sections of a grid file, and small schemas for use in
 //! larger schemas.
 
 use flap_core::simulate::{SettingKind, Simulator, SolverSettings};

@@ -16,9 +16,9 @@ pub enum Distribution {
     },
     /// Uniform distribution on a logarithmic scale between two values of the same sign.
     LogUniform {
-        /// The value at the first end of the distribution.
+        /// Smallest value.
         from: f64,
-        /// The value at the second end of the distribution.
+        /// Largest value.
         to: f64,
     },
     /// Normal distribution, truncated at finite bounds.
@@ -35,7 +35,8 @@ pub enum Distribution {
 }
 
 impl Distribution {
-    /// Returns the value below which the fraction `u` of all values lies. `u` must be more than 0 and less than 1.
+    /// Returns the quantile of the distribution for the probability `u`. `u` must be more than 0 and less
+    /// than 1.
     pub fn quantile(&self, u: f64) -> f64 {
         match self {
             Distribution::Among(values) => {
@@ -80,7 +81,7 @@ pub(super) fn cumulative(z: f64) -> f64 {
     0.5 * libm::erfc(-z * std::f64::consts::FRAC_1_SQRT_2)
 }
 
-/// Returns the value below which the fraction `p` of the standard normal distribution lies, to about 16 digits.
+/// Returns the quantile of the standard normal distribution for the probability `p`, to about 16 digits.
 ///
 /// The algorithm is AS 241, function PPND16, of Wichura, "The percentage points of the normal distribution",
 /// Applied Statistics 37, 477 (1988).

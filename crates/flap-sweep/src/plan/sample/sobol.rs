@@ -18,8 +18,8 @@ impl Sobol {
         Sobol { directions: directions(dimension), key }
     }
 
-    /// Returns the coordinate of point number `index`, which is more than 0 and less than 1. `index` must be
-    /// less than 2^32.
+    /// Returns the coordinate of point number `index`. The coordinate is more than 0 and less than 1. `index`
+    /// must be less than 2^32.
     pub(super) fn coordinate(&self, index: u64) -> f64 {
         (f64::from(scrambled(self.plain(index), self.key)) + 0.5) / (1_u64 << BITS) as f64
     }

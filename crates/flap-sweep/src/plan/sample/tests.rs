@@ -33,8 +33,8 @@ fn sobol_points_before_scrambling_are_those_of_scipy() {
 }
 
 /// Each of 2^k equal intervals contains one of the first 2^k points, along every dimension. Each of 2^k equal
-/// boxes over the first two dimensions also contains one point. Scrambling preserves this even distribution
-/// of the points.
+/// boxes over the first two dimensions also contains one of the first 2^k points. Scrambling preserves this
+/// even distribution of the points.
 #[test]
 fn scrambled_sobol_points_are_as_even_as_plain_ones() {
     let sample = sample(Method::Sobol, 1 << 32, 128);
