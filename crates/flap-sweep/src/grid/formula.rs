@@ -23,7 +23,7 @@ const PRESET: &str = "preset.";
 /// Prefix for the value of a parameter in the device, as in `device.drive_frequency`.
 const DEVICE: &str = "device.";
 
-/// Text of messages about a drive frequency that is the resonance of each design.
+/// Words in messages for the value of a drive frequency that is set to the resonance of each design.
 const RESONANCE: &str = "the resonance of each design, which [measure] has as resonance_hz";
 
 /// The names that expressions may contain: parameters, values of parameters in the preset or the device, and

@@ -120,8 +120,8 @@ self_cell!(
 type Parameters<'a> = Vec<Parameter<'a>>;
 
 self_cell!(
-    /// All parameters of a robot with several designs. The table also owns the wings and the labels, from
-    /// which the parameters borrow.
+    /// All parameters of a robot with several designs. The parameters borrow data from the wings and
+    /// the labels of the designs, so this struct also owns the wings and the labels.
     struct Table {
         owner: (Wings, Labels),
         #[covariant]

@@ -23,8 +23,8 @@ use super::{RunError, RunOptions};
 /// Lower and upper limit of the time for which [`Queue::next_batch`] waits for outcomes.
 const TURN: [Duration; 2] = [Duration::from_millis(10), Duration::from_millis(100)];
 
-/// If at least this number of outcomes can be collected, [`Queue::next_batch`] does not wait for more
-/// outcomes.
+/// If this number of outcomes are finished, and the next outcome is one of them, [`Queue::next_batch`] does
+/// not wait for more outcomes.
 const BATCH: usize = 64;
 
 /// Largest number of outcomes that one call of [`Queue::next_batch`] returns. The number is limited so that

@@ -42,7 +42,7 @@ pub trait Sink {
     fn write(&mut self, cells: &[Cell]) -> io::Result<()>;
 
     /// The caller calls this function after each row and after each excluded point. `so_far` is the summary
-    /// of all rows so far. If the run is interrupted, it can be resumed from this summary.
+    /// of all rows so far. An interrupted run can be resumed from the summary in `so_far`.
     ///
     /// # Errors
     /// The error of the operating system if the rows cannot be stored on disk.
