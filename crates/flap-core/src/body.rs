@@ -26,7 +26,8 @@ crate::parameters! {
     pub struct BodyParameters {
         ["body motion"]
         /// Forward velocity of the body through still air, at the reference point of the torques. For a
-        /// single wing, the parameter is the velocity of the shoulder in the direction of a positive stroke.
+        /// single wing, the parameter is the velocity of the shoulder along its forward axis. At zero stroke,
+        /// the wing moves along this axis when the stroke increases.
         body_velocity_forward: f64 = ("m/s", "u", Number(Any), default: 0.0),
         /// Velocity of the body to the left. For a single wing, the parameter is the velocity of the shoulder
         /// along the span.
@@ -74,8 +75,8 @@ impl BodyParameters {
         "body_rate_yaw",
     ];
 
-    /// Returns the equations of a wing that contain the motion of the body: no equations, the equations for
-    /// the loads, or all equations.
+    /// Returns which equations of a wing contain the motion of the body: none, only the equations for the
+    /// loads, or all.
     pub fn terms(&self) -> BodyTerms {
         let BodyMotion { velocity, rate } = self.motion();
         if velocity.into_iter().chain(rate).all(|component| component == 0.0) {
@@ -139,8 +140,8 @@ pub enum BodyTerms {
 crate::per_lane! {
     /// Velocity (m/s) and angular velocity (rad/s) of a wing's shoulder relative to still air.
     ///
-    /// The components are along three axes: the direction of a positive stroke, the span at zero stroke, and
-    /// the stroke axis.
+    /// The components are along three axes: the forward axis, the span at zero stroke, and the stroke axis.
+    /// At zero stroke, the wing moves along the forward axis when the stroke increases.
     pub struct BodyMotion<R> {
         /// Velocity V.
         pub velocity: [R; 3],
@@ -176,8 +177,8 @@ impl<R: Real> BodyMotion<R> {
     }
 }
 
-/// Motion of a wing's shoulder along the axes of the wing: e_t (direction of a positive stroke), e_s (span) and e_z
-/// (stroke axis).
+/// Motion of a wing's shoulder along the axes of the wing: e_t, e_s (span) and e_z (stroke axis). The wing
+/// moves along the axis e_t when the stroke increases.
 #[derive(Clone, Copy, Debug)]
 pub struct Shoulder<R> {
     /// Component of the shoulder's velocity along the axis e_t (m/s).

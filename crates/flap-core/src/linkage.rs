@@ -139,7 +139,7 @@ impl<R: Real> FourBarLinkage<R> {
     /// θ₂′ = w×(B′ − A′) / L₂²     θ₂″ = w×(B″ − A″) / L₂²
     /// ```
     ///
-    /// If the links cannot be assembled, Q is NaN, and all results except B, B′ and B″ are also NaN.
+    /// If the links cannot be assembled, all results except B, B′ and B″ are NaN.
     #[inline(always)]
     pub fn motion(&self, theta: R) -> FourBarMotion<R> {
         let (sin, cos) = (self.neutral + theta).sin_cos();

@@ -7,14 +7,14 @@ use crate::num::Real;
 crate::per_lane! {
     /// A strip of a wing in oblique flow.
     pub struct ObliqueStrip<R> {
-        /// Weight of the strip: the factor ½ρcΔr of the forces on the strip (kg/m).
+        /// Factor ½ρcΔr of the forces on the strip (kg/m).
         pub weight: R,
         /// Distance r from the stroke axis to the point at which the velocity of the strip is computed (m).
         pub radius: R,
         /// Lever arm of the forces on the strip about the stroke axis (m).
         pub lever: R,
-        /// Distance d from the pitch axis back to the point at which the velocity of the strip is computed
-        /// (m).
+        /// Chordwise distance d between the pitch axis and the point at which the velocity of the strip is
+        /// computed (m). The distance is positive if the point is behind the pitch axis.
         pub behind: R,
         /// Chord c of the strip (m). The position of the centre of pressure is measured in chords.
         pub chord: R,
@@ -54,7 +54,7 @@ impl<R: Real> Flow<R> {
         Flow { normal: u * cos - w * sin, chordwise: u * sin + w * cos, speed: (u * u + w * w).sqrt() }
     }
 
-    /// Returns 1/U² (s²/m²), or zero if the speed U is zero.
+    /// Returns 1/U² (s²/m²) for the speed U of the strip, or zero if U is zero.
     #[inline(always)]
     fn inverse_square(&self) -> R {
         let (square, zero, one) = (self.speed * self.speed, self.speed.lit(0.0), self.speed.lit(1.0));
@@ -113,8 +113,8 @@ pub struct ObliqueForces<R> {
     /// Sum of the chordwise force F_C times the lever arm of F_C about the stroke axis, over all strips
     /// (N·m).
     pub chordwise_moment: R,
-    /// Sum of the normal force F_N times the distance from the pitch axis back to the centre of pressure,
-    /// over all strips (N·m).
+    /// Sum of the normal force F_N times the distance of the centre of pressure behind the pitch axis, over
+    /// all strips (N·m).
     pub pitch_moment: R,
 }
 
@@ -165,8 +165,8 @@ impl<R: Real> ObliqueForces<R> {
 /// wing pitch.
 ///
 /// The function `law` returns the forces on one strip along the normal and along the chord, divided by ½ρcΔr
-/// of the strip (m²/s²). `law` also returns the distance from the pitch axis back to the centre of pressure,
-/// in chords.
+/// of the strip (m²/s²). `law` also returns the distance of the centre of pressure behind the pitch axis, in
+/// chords.
 #[inline(always)]
 pub fn oblique_forces<R: Real>(
     strips: impl Iterator<Item = ObliqueStrip<R>>,

@@ -103,8 +103,8 @@ impl<R: Real, const MAX: usize> Strips<R, MAX> {
         )
     }
 
-    /// Returns the sums over all strips for the given stroke rate and sweep rate (rad/s). The sweep rate is
-    /// the pitch rate times the cosine of the pitch.
+    /// Returns the sums of ½ρ u|u| c Δr over all strips, for the given stroke rate and sweep rate (rad/s).
+    /// The sweep rate is the pitch rate times the cosine of the pitch.
     ///
     /// ```text
     /// u = r · stroke rate + κ c · sweep rate

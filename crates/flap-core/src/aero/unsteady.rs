@@ -23,7 +23,7 @@ pub struct NormalLoad<R> {
 }
 
 impl<R: Real> NormalLoad<R> {
-    /// Returns the sum of two loads.
+    /// Returns a load with the sum of the forces and the sums of the moments of two loads.
     #[inline(always)]
     #[must_use]
     pub fn plus(&self, other: &NormalLoad<R>) -> NormalLoad<R> {
@@ -49,7 +49,7 @@ crate::per_lane! {
         /// First moment of the added mass about the stroke axis, f₁ = π/4 ρ ∫ r c² dr (kg·m).
         pub f1: R,
         /// First moment of the added mass about the pitch axis, f₂ = π/4 ρ ∫ d c² dr (kg·m). d is the
-        /// distance from the pitch axis back to the mid-chord.
+        /// distance of the mid-chord behind the pitch axis.
         pub f2: R,
         /// Added inertia about the stroke axis, a₁₁ = π/4 ρ ∫ r² c² dr (kg·m²).
         pub a11: R,

@@ -125,8 +125,8 @@ impl Outline {
         self.stations[self.stations.len() - 1].span
     }
 
-    /// Returns two distances from the hinge's axis (m): the leading edge ahead of the axis, and the trailing
-    /// edge behind the axis. `span` is the distance from the root (m).
+    /// Returns the distance of the leading edge ahead of the hinge's axis, and the distance of the trailing
+    /// edge behind this axis (m). `span` is the distance from the root (m).
     fn edges(&self, span: f64) -> [f64; 2] {
         let after = self.stations.partition_point(|station| station.span <= span);
         let after = after.clamp(1, self.stations.len() - 1);

@@ -35,8 +35,8 @@ impl Drive {
     /// A prescribed sinusoidal stroke.
     pub(crate) const PRESCRIBED: Drive = Drive { stroke: StrokeMode::Prescribed, ..Drive::SINE };
 
-    /// Returns the drive of a point with the given shape and stroke mode. If `self` is a drive with samples,
-    /// the result has these samples instead of the shape.
+    /// Returns the drive of a point with the given shape and stroke mode. If the waveform of `self` consists
+    /// of samples, the result has the same samples, and the argument `shape` has no effect.
     #[must_use]
     pub fn of_point(&self, shape: Shape, stroke: StrokeMode) -> Drive {
         let waveform = match &self.waveform {
@@ -159,8 +159,8 @@ impl Drive {
         }
     }
 
-    /// Returns the smallest and the largest voltage (V) over a period. Both numbers are NaN if the stroke is
-    /// prescribed.
+    /// Returns the smallest and the largest voltage (V) over a period. The two voltages are NaN if the drive
+    /// prescribes the stroke.
     pub(crate) fn voltage_range(&self, c: &DriveConstants<f64>) -> [f64; 2] {
         if self.prescribes_stroke() {
             return [f64::NAN; 2];

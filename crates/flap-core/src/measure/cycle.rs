@@ -1,11 +1,11 @@
 //! Measures of signals over one drive period: means, extrema, first harmonics.
 //!
 //! flap computes means and harmonics as integrals over time, from the values at the stages of each step. The
-//! integrals have the order of the integration method, and the errors of the integrals do not affect the step
-//! size. Extrema are computed from a polynomial through five values of the signal in each step. If a signal
-//! changes its sign within a step, flap computes the mean of the signal's positive part from two parabolas.
-//! Each of the two parabolas passes through three values of the signal in the step. For each signal, flap
-//! computes only the quantities that the measures of this signal need.
+//! integrals have the same order of accuracy as the integration method. The errors of the integrals do not
+//! affect the step size. Extrema are computed from a polynomial through five values of the signal in each
+//! step. If a signal changes its sign within a step, flap computes the mean of the signal's positive part
+//! from two parabolas. Each of the two parabolas passes through three values of the signal in the step. For
+//! each signal, flap computes only the quantities that the measures of this signal need.
 
 use super::step_polynomial::{Extremum, StepPolynomial};
 use crate::model::{Each, Instant, Model, SecondHalf, SignalCycle, SignalSet, SignalsOf, Statistics, Totals};

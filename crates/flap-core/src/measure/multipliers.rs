@@ -3,11 +3,13 @@
 use nalgebra::DMatrix;
 use nalgebra::linalg::Schur;
 
-/// Largest number of iterations for the eigenvalues of a matrix. Usually about ten iterations are enough.
+/// Largest number of iterations for the eigenvalues of a matrix. The eigenvalues usually converge within
+/// about ten iterations.
 const LONGEST: usize = 200;
 
-/// Largest number of squarings in the stability test. Usually about three squarings are enough. If the last
-/// squaring does not prove that the matrix is stable, the test computes the eigenvalues.
+/// Largest number of squarings in the stability test. Usually, about three squarings prove that a stable
+/// matrix is stable. If the last squaring does not prove that the matrix is stable, the test computes the
+/// eigenvalues.
 const STABILITY_SQUARINGS: u32 = 8;
 
 /// Number of times that a matrix is squared to compute its spectral radius. After `SQUARINGS` squarings, the
@@ -68,7 +70,8 @@ pub fn spectral_radius<const N: usize>(m: &Matrix<N>) -> f64 {
     eigenvalues.iter().fold(0.0, |radius, value| libm::hypot(value.re, value.im).max(radius))
 }
 
-/// Returns the [`spectral_radius`] of a finite matrix by Gelfand's formula, with repeated squaring.
+/// Returns the [`spectral_radius`] of a matrix with finite entries by Gelfand's formula, with repeated
+/// squaring.
 ///
 /// The spectral radius is the limit of the n-th root of the norm of the matrix's n-th power. flap uses this
 /// function if the iteration for the eigenvalues does not converge.

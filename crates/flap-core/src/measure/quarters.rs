@@ -3,8 +3,8 @@
 //!
 //! Signals of a symmetric motion reach equal extrema in both half strokes. A parameter that breaks the
 //! symmetry raises one of the two extrema more than the other extremum. As a function of the parameter, the
-//! larger extremum therefore has a kink. The two equal extrema of a symmetric motion lie in opposite quarters
-//! of the drive period.
+//! larger extremum therefore has a kink. The two equal extrema of a symmetric motion lie in opposite
+//! quarters: the two quarters begin half a drive period apart.
 
 use core::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -117,8 +117,9 @@ impl Shifts {
 /// result is `None` if no extrema are nearly equal.
 ///
 /// `runs[0]` is the motion at the point, and all later entries of `runs` are motions with slightly changed
-/// parameters. In `runs[0]`, extrema whose relative difference is less than `error` are made equal. The
-/// corrections for `runs[0]` are also added to the extrema of all later entries.
+/// parameters. If the relative difference between two extrema of a signal in `runs[0]` is less than `error`,
+/// the function makes the two extrema equal. The corrections for `runs[0]` are also added to the extrema of
+/// all later entries.
 pub(crate) fn with_equal_extrema<S: SignalSet>(
     runs: &[InQuarters<S, f64>],
     error: f64,
@@ -137,7 +138,8 @@ pub(crate) fn with_equal_extrema<S: SignalSet>(
 }
 
 /// Returns the quarter opposite to the quarter with the largest value, and the difference between the maxima
-/// of these two quarters. The result is `None` if the relative difference is not less than `error`.
+/// of these two quarters. The result is `None` if the relative difference between the two maxima is not less
+/// than `error`.
 fn other_half(largest: [f64; 4], error: f64) -> Option<(usize, f64)> {
     let quarter = (0..4).max_by(|&one, &other| largest[one].total_cmp(&largest[other]))?;
     let opposite = (quarter + 2) % 4;

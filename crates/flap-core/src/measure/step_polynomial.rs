@@ -2,8 +2,8 @@
 
 use crate::num::Real;
 
-/// A signal within a step or within a part of a step. The fields are five equidistant values, and the quartic
-/// polynomial through these values.
+/// A signal within an integration step or within a part of an integration step. The fields are five
+/// equidistant values, and the quartic polynomial through these values.
 pub(super) struct StepPolynomial<R> {
     values: [R; 5],
     /// Coefficients a to d of the polynomial m + a x + b x² + c x³ + d x⁴. m is the middle value of the

@@ -15,7 +15,7 @@ const LONGEST: usize = LONGEST_PERIOD as usize;
 /// orbit of one period.
 const SEPARATE: f64 = 1e-2;
 
-/// The states at the ends of the last drive periods.
+/// The states at the ends of the most recent drive periods.
 #[derive(Clone, Copy, Debug)]
 pub struct Strobe<const N: usize> {
     scale: [f64; N],

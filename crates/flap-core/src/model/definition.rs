@@ -103,11 +103,11 @@ impl<M, C, S: SignalSet> Derived<M, C, S> {
 /// solution, where T is the drive period.
 ///
 /// A switching function must have opposite signs for a solution and for its mirror image. A constant part of
-/// the drive breaks the symmetry, unless the constant part only shifts the centre. An even harmonic of the
-/// drive also breaks the symmetry. The search for an orbit tests the symmetry: it compares the equations at a
-/// state and at the mirror image of this state. If the equations are not symmetric, the search integrates
-/// whole periods. flap does not check the function `second_half`. To test `second_half`, compare rows with
-/// and without [`SolverSettings::symmetry`](crate::simulate::SolverSettings::symmetry).
+/// the drive breaks the symmetry, unless the constant part only shifts the centre of the symmetry. An even
+/// harmonic of the drive also breaks the symmetry. The search for an orbit tests the symmetry: it compares
+/// the equations at a state and at the mirror image of this state. If the equations are not symmetric, the
+/// search integrates whole periods. flap does not check the function `second_half`. To test `second_half`,
+/// compare rows with and without [`SolverSettings::symmetry`](crate::simulate::SolverSettings::symmetry).
 #[derive(Clone, Copy, Debug)]
 pub struct Symmetry<S: SignalSet, const N: usize> {
     /// State at the centre of the mirror symmetry.
@@ -132,7 +132,7 @@ pub type SecondHalf<S> = fn(&SignalsOf<S, Totals<f64>>) -> SignalsOf<S, Totals<f
 pub struct Instant<'a, R, I, const N: usize> {
     /// Inputs, see [`Ode::input`].
     pub input: &'a I,
-    /// Side of the switching surface, see [`Ode::rhs`].
+    /// Side of the switching surface on which the state lies: +1 or −1, see [`Ode::rhs`].
     pub side: R,
     /// States.
     pub y: &'a [R; N],
@@ -151,8 +151,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     const STATES: [&'static str; N];
     /// Columns that are computed from the signals.
     const DERIVED: &'static [Derived<Self, Self::Constants<f64>, Self::Signals>];
-    /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If the value is false,
-    /// [`Instant::dy`] may be NaN at times between the stages of a step.
+    /// True if the signals depend on the derivatives of the states, [`Instant::dy`]. If the constant is
+    /// false, [`Instant::dy`] may be NaN at times between the stages of a step.
     const SIGNALS_OF_SLOPES: bool = true;
 
     /// Returns the variant of the model for a point. A variant contains the options that select the form of
@@ -276,8 +276,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     }
 
     /// Returns false if loads or signals of this variant jump within steps, at times that depend on the
-    /// parameters. If loads or signals jump within steps, the measures have no derivatives with respect to
-    /// the parameters on fixed steps.
+    /// parameters. If loads or signals jump within steps, flap cannot differentiate the measures while it
+    /// keeps the integration steps fixed.
     fn has_slopes(&self) -> bool {
         true
     }

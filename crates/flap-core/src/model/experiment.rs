@@ -19,15 +19,15 @@ pub trait ExperimentModel<const N: usize>: Model<N> {
     #[must_use]
     fn with_drive(&self, change: impl FnOnce(&Drive) -> Drive) -> Self;
 
-    /// Returns a copy of the constants `c` with the constants `drive` of another drive.
+    /// Returns a copy of the constants `c` in which `drive` replaces the constants of the drive.
     fn with_drive_constants(c: &Self::Constants<f64>, drive: DriveConstants<f64>) -> Self::Constants<f64>;
 
     /// Returns the natural modes of the model, which are small motions without damping. The first mode in the
     /// list is the mode that an impulse on the stroke excites.
     fn modes(c: &Self::Constants<f64>) -> Vec<Mode>;
 
-    /// Returns the constants for a constant drive voltage. With the returned constants, all angles are zero
-    /// in the rest position.
+    /// Returns the constants of a point for a constant drive voltage. With the returned constants, all angles
+    /// are zero in the rest position.
     fn resting(c: &Self::Constants<f64>) -> Self::Constants<f64>;
 
     /// Returns the state immediately after a torque impulse on the wing at rest. The impulse gives the stroke

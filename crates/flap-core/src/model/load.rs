@@ -56,9 +56,9 @@ impl<R: Real> Load<R> {
 
     /// Returns the force (N) and the moment (N·m) at the shoulder, in axes x, y and z that do not move with the wing.
     ///
-    /// The x axis points in the direction of a positive stroke, and the y axis points along the span at zero
-    /// stroke. The z axis points upwards along the stroke axis. For a left wing, the axes form a right-handed
-    /// system.
+    /// At zero stroke, the wing moves along the x axis when the stroke increases. The y axis points along the
+    /// span at zero stroke. The z axis points upwards along the stroke axis. For a left wing, the axes form a
+    /// right-handed system.
     ///
     /// ```text
     /// span e_s = (sin φ, cos φ, 0)     motion e_t = (cos φ, −sin φ, 0)

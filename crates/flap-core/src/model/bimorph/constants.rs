@@ -152,7 +152,7 @@ crate::per_lane! {
         pub vehicle_mass: R,
         /// Nonlinear terms of the springs of stroke and hinge.
         pub stiffening: Stiffening<R>,
-        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
+        /// Terms that flap adds to the paper's formulas of the force coefficients and the centre of pressure.
         pub harmonics: Harmonics<R>,
         /// Rotational circulation of the wing's sections.
         pub circulation: Circulation<R>,
@@ -191,8 +191,9 @@ impl Constants<f64> {
     ///
     /// # Errors
     /// Returns an error if the width of the actuator is zero at one end, or the plates have no stiffness.
-    /// Returns an error if no shape of the wing has the given radii, or the mass matrix is not positive
-    /// definite at some pitch. Returns an error if a constant is not finite.
+    /// Returns an error if no shape of the wing has the radii `wing_radius_1` and `wing_radius_2`. Returns an
+    /// error if the mass matrix is not positive definite at some pitch. Returns an error if a constant is not
+    /// finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {
         let actuator = Actuator::new(p)?;
         // Exponent of the modulus transition (4) at zero strain.

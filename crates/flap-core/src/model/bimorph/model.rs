@@ -31,8 +31,8 @@ use crate::parameter::Invalid;
 use crate::piezo::supplied;
 use crate::springs::Stiffening;
 
-/// Fraction of the largest lift that can carry the weight of a vehicle. Section IV of the paper reserves 20 %
-/// of the largest lift for control.
+/// Largest weight that a vehicle can carry, divided by the largest lift of the vehicle. Section IV of the
+/// paper reserves 20 % of the largest lift for control.
 const HOVER_SHARE: f64 = 0.8;
 
 crate::signals! {
@@ -148,8 +148,8 @@ fn vehicle_lift(cycle: &Signals<SignalCycle>) -> f64 {
     2e3 * grams_force(cycle.lift.mean)
 }
 
-/// Returns the mean power (W) that charges the capacitances of both plates, without recovery. The voltages of
-/// the plates are ½V_pp (1 ± wave).
+/// Returns the mean power (W) that charges the capacitances of both plates, if the power supply recovers no
+/// charge. The voltages of the plates are ½V_pp (1 ± wave).
 fn capacitive_power(model: &Bimorph, c: &Constants<f64>) -> f64 {
     let [low, high] = model.drive.range(&c.drive);
     let voltage_pp = c.drive.amplitude * (high - low);

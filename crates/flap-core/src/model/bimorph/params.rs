@@ -98,7 +98,7 @@ crate::parameters! {
         /// Chordwise centre of pressure at an attack angle of 90 deg, as a fraction of the mean wing width
         /// A_w/R, Eq. (11).
         pressure_max: f64 = ("", "p_max", Number(Any), is_fitted: true) 0.151,
-        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
+        /// Terms that flap adds to the paper's formulas of the force coefficients and the centre of pressure.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
         /// Factor that multiplies the rotational circulation of potential flow. With circulation_factor = 1,
         /// the circulation follows the theory of Kramer (1932) and Sane and Dickinson (2002). Jafferis et
@@ -201,15 +201,15 @@ crate::parameters! {
     }
 
     /// Returns the parameters in Table I of the paper, at 200 V and at the frequency of the largest stroke.
-    /// Table I prints each fitted value as a product of two factors.
+    /// Table I of the paper prints each fitted value as a product of two factors.
     pub fn jafferis2016() -> Params;
 }
 
 crate::choice! {
     /// Interpretations of Eq. (6), which gives the piezoelectric stress per electric field.
     pub enum FieldTransition {
-        /// The stress per field is f_min + (f_max (1 − a₄ℰ) − f_min) σ. The stress per field rises from f_min
-        /// to f_max, as the text of the paper describes.
+        /// The stress per field is f_min + (f_max (1 − a₄ℰ) − f_min) σ. As the electric field increases, the
+        /// stress per field rises from f_min towards f_max, as the text of the paper describes.
         Corrected = "corrected",
         /// The stress per field is (f_min + (f_max (1 − a₄ℰ) − f_min) eᶻ)/(1 + eᶻ), as printed. The printed
         /// formula never approaches f_max.
@@ -294,7 +294,7 @@ impl Params {
     /// T ∝ r     κ_t ∝ r^−2.14, so K_t = T² κ_t ∝ r^−0.14     κ_wh ∝ r^−1.47
     /// ```
     ///
-    /// Figure 5 of the paper shows response curves for r = 0.8 (named T₂) and r = 0.6 (named T₃).
+    /// Figure 5 of the paper shows response curves for the ratios 0.8 (named T₂) and 0.6 (named T₃).
     #[must_use]
     pub fn with_transmission_scaled(self, ratio: f64) -> Params {
         Params {

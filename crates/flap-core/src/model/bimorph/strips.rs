@@ -32,7 +32,7 @@ impl Moving<f64> {
     ///
     /// # Errors
     /// Returns an error if the body moves and `centre_of_pressure` is "literal", or if no shape of the wing
-    /// has the given radii.
+    /// has the radii `wing_radius_1` and `wing_radius_2`.
     pub(super) fn of(p: &Params, terms: BodyTerms) -> Result<Moving<f64>, Invalid> {
         if terms == BodyTerms::None {
             return Ok(Moving::REST);
@@ -106,8 +106,8 @@ type Unsteady = (Circulation<f64>, RotationalForce<f64>, AddedMass<f64>);
 /// the added mass.
 ///
 /// # Errors
-/// Returns an error if no shape of the wing has the given radii. Returns an error if the integrals over the
-/// chord diverge at the root or the tip.
+/// Returns an error if no shape of the wing has the radii `wing_radius_1` and `wing_radius_2`. Returns an
+/// error if the integrals over the chord diverge at the root or the tip.
 pub(super) fn unsteady(p: &Params) -> Result<Unsteady, Invalid> {
     if !p.has_sections() {
         return Ok((Circulation::NONE, RotationalForce::NONE, AddedMass::NONE));

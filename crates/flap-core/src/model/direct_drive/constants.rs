@@ -76,7 +76,7 @@ crate::per_lane! {
         /// Half of the difference between the largest and the smallest drag coefficient, Eq. (26).
         pub drag_swing: R,
 
-        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
+        /// Terms that flap adds to the paper's formulas of the force coefficients and the centre of pressure.
         pub harmonics: Harmonics<R>,
 
         /// Factors of φ̇², φ̇ψ̇cosψ and (ψ̇cosψ)² in the lift (kg), Eq. (21): ½ρA_w [R² I₂₁, −R c̄ I₁₂, c̄² I₀₃/4].
@@ -269,8 +269,8 @@ impl Constants<f64> {
     /// `BodyTerms::None`, the body remains at rest.
     ///
     /// # Errors
-    /// If the body moves, returns an error if `flow_direction` is "uniform", `centre_of_pressure` is
-    /// "literal" or `added_mass` is "lagrangian".
+    /// A moving body causes an error if `flow_direction` is "uniform", `centre_of_pressure` is "literal" or
+    /// `added_mass` is "lagrangian".
     pub(super) fn with_motion(&self, p: &Params, terms: BodyTerms) -> Result<Constants<f64>, Invalid> {
         if terms == BodyTerms::None {
             return Ok(*self);

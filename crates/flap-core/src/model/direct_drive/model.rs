@@ -266,8 +266,8 @@ impl Model<4> for DirectDrive {
         Ok(states::start(&self.drive, &constants.drive, constants, [0.1, 0.3]))
     }
 
-    /// The second half of a period mirrors the first half about the rest position at the constant part of the
-    /// voltage. The constant part of the voltage only shifts the stroke.
+    /// The second half of a period mirrors the first half about the position in which the wing rests under
+    /// the constant part of the voltage. The constant part of the voltage only shifts the stroke.
     fn symmetry(&self, c: &Constants<f64>) -> Option<Symmetry<Signals, 4>> {
         let [.., literal] = c.attack;
         if literal != 0.0 || self.terms.body != BodyTerms::None || !self.drive.is_symmetric(&c.drive) {

@@ -65,10 +65,10 @@ crate::parameters! {
         ["wing shape"]
         /// Direction of the flow in the translational forces: one direction for the whole wing ("uniform"),
         /// or one direction for each blade element ("blade"). With "uniform", the direction is computed from
-        /// the mean velocity of the wing, as in Ozaki and Hamaguchi (2018). With "blade", the directions are
-        /// computed from the velocities of the blade elements. With "blade", flap computes the shape moments,
-        /// rotation_moment and midspan_chord from the chord shape, and ignores the values that you set for
-        /// these parameters.
+        /// the mean velocity of the wing, as in Ozaki and Hamaguchi (2018). With "blade", the direction of
+        /// the flow past each blade element is computed from the velocity of this element. With "blade", flap
+        /// computes the shape moments, rotation_moment and midspan_chord from the chord shape, and ignores
+        /// the values that you set for these parameters.
         flow_direction: FlowDirection = ("", "", Choice(FlowDirection::NAMES)) FlowDirection::Uniform,
         /// Chord shape for flow_direction = "blade": coefficient of the Legendre polynomial P_1(2r/R - 1) in
         /// chord / mean_chord. The constant term of the series of Legendre polynomials is 1. Ozaki and
@@ -163,7 +163,7 @@ crate::parameters! {
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Distance of the centre of pressure from the leading edge at an attack angle of 0, in chords, Eq. (24).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
-        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
+        /// Terms that flap adds to the paper's formulas of the force coefficients and the centre of pressure.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
         /// Factor that multiplies the rotational circulation of potential flow. With circulation_factor = 1,
         /// the circulation follows the theory of Kramer (1932) and Sane and Dickinson (2002). Ozaki and
@@ -237,8 +237,7 @@ crate::choice! {
 }
 
 impl Params {
-    /// Published presets, and presets that test a hypothesis: in these presets, the hinge stiffnesses of the
-    /// two robots are swapped.
+    /// Published presets, and presets that test if the paper swaps the hinge stiffnesses of the two robots.
     pub(super) const PRESETS: &'static [Preset] = &[
         Preset {
             name: "ozaki2018-small",

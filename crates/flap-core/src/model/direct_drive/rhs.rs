@@ -130,8 +130,8 @@ fn form<R: Real>(factors: [R; 3], products: [R; 3]) -> R {
 /// ∫ q c d_cp dr = ½ (d_cp(+) + d_cp(−)) ∫ q c dr + ½ (d_cp(+) − d_cp(−)) ∫ |q| c dr     ∫ |q| c dr = ½ρA_w c̄ B_X
 /// ```
 ///
-/// When the flow past an element changes its direction, the velocity of the element is zero. The integrals
-/// are therefore continuous: at a switching surface, they have the same value on both sides.
+/// When the flow past an element changes its direction, the velocity of the element is zero. The integrals of
+/// the pressure are therefore continuous: they have equal values on the two sides of a switching surface.
 #[inline(always)]
 fn blade_flow<R: Real>(c: &Constants<R>, harmonics: bool, psi: R, [phi_dot, w]: [R; 2]) -> Pressure<R> {
     let sums = c.blades.sums(phi_dot, w);

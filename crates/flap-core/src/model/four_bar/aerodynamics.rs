@@ -169,9 +169,10 @@ pub(super) fn side_of<R: Real>(phi: R, phi_dot: R) -> [R; 2] {
 /// ```
 ///
 /// The moments of lift and drag are the sums for lift and drag, but each term is also multiplied by r. The
-/// span moment M_s is −Q_φ, because a positive φ moves the trailing edge in the direction of the stroke. In
-/// M_s, each term in the sums of the added mass is also multiplied by κc. Here κc is the distance c/2 − z_RA
-/// of Eq. (7). In the equations of motion, the added mass acts at the centre of mass of the wing, Eq. (19).
+/// span moment M_s is −Q_φ, because a positive φ moves the trailing edge in the direction in which the stroke
+/// angle increases. In M_s, each term in the sums of the added mass is also multiplied by κc. Here κc is the
+/// distance c/2 − z_RA of Eq. (7). In the equations of motion, the added mass acts at the centre of mass of
+/// the wing, Eq. (19).
 #[inline(always)]
 pub(super) fn load<R: Real>(c: &Constants<R>, side: R, y: &[R; 4], dy: &[R; 4]) -> Load<R> {
     let (sin, cos) = y[1].sin_cos();

@@ -86,7 +86,7 @@ crate::per_lane! {
         pub pressure_upright: R,
         /// Shift of the centre of pressure per radian of attack angle, in chords, Eq. (17).
         pub pressure_slope: R,
-        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
+        /// Terms that flap adds to the paper's formulas of the force coefficients and the centre of pressure.
         pub harmonics: Harmonics<R>,
         /// Factors of θ̇², θ̇φ̇cosφ and (φ̇cosφ)² in the sum Σ c ½ρU²cΔr (kg·m²).
         pub chord: [R; 3],
@@ -152,7 +152,7 @@ impl Constants<f64> {
     /// # Errors
     /// - The four-bar has no neutral position, or cannot be assembled in its neutral position.
     /// - The chord is negative somewhere.
-    /// - The number of strips is not allowed.
+    /// - The number of strips is not a whole number from 1 to 64.
     /// - The mass matrix is not positive definite at some position of the wing.
     /// - A constant is not finite.
     pub fn derive(p: &Params) -> Result<Constants<f64>, Invalid> {

@@ -341,7 +341,7 @@ pub(super) fn impulse<R: Lanes>(
 }
 
 /// Number of parts into which each step is divided. The search for jumps assumes that the flow past a strip
-/// reverses at most once in each part.
+/// reverses at most once in each part of a step.
 const PARTS: usize = 4;
 
 /// Returns the interval within one part of a step in which the flow is reversed, as fractions of the step. If

@@ -92,13 +92,13 @@ impl Ode<4> for FourBar {
         self.drive.at(&c.drive, t)
     }
 
-    /// At the switching surface, the lift jumps, while the equations of motion hardly jump (see `side_of`).
-    /// The mean lift over a step that contains a jump is inaccurate. The following numbers are from 816
-    /// points of the 75 Hz system at rtol 1e-6. The search for the jumps increases the number of evaluations
-    /// of the right-hand side by 7 %. The search reduces the median error of the mean lift from 9e-4 to 7e-7,
-    /// and the largest error from 2e-2 to 1e-5. The errors of the mean lift are relative to the components of
-    /// the lift. With the search for the jumps, the motion settles at every point. Without the search for the
-    /// jumps, the motion does not settle at a few points in a thousand.
+    /// At the switching surface, the lift jumps, while the accelerations of the wing hardly jump (see
+    /// `side_of`). The mean lift over a step that contains a jump is inaccurate. The following numbers are
+    /// from 816 points of the 75 Hz system at rtol 1e-6. The search for the jumps increases the number of
+    /// evaluations of the right-hand side by 7 %. The search reduces the median error of the mean lift from
+    /// 9e-4 to 7e-7, and the largest error from 2e-2 to 1e-5. The errors of the mean lift are relative to the
+    /// components of the lift. With the search for the jumps, the motion settles at every point. Without the
+    /// search for the jumps, the motion does not settle at a few points in a thousand.
     const SWITCHES: bool = true;
 
     #[inline(always)]

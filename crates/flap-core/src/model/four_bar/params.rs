@@ -1,9 +1,9 @@
 //! Parameters of the four-bar model, and presets for the two prototypes of the paper.
 //!
-//! The paper gives the link lengths of one four-bar, voltages, frequencies, and the hinges' stiffness and
-//! damping. The paper also gives the series stiffness, the coefficient C_rot of the rotational drag, and the
-//! position of the rotation axis. All values that the paper does not give are assumed, as the descriptions of
-//! the parameters state.
+//! The paper gives voltages, frequencies, the link lengths of one four-bar, and the stiffness and damping of
+//! the hinges. The paper also gives the series stiffness, the coefficient C_rot of the rotational drag, and
+//! the position of the rotation axis. All values that the paper does not give are assumed, as the
+//! descriptions of the parameters state.
 
 use crate::aero::{ChordTable, HarmonicParameters};
 use crate::body::BodyParameters;
@@ -192,7 +192,7 @@ crate::parameters! {
         pressure_slope: f64 = ("", "0.82/pi", Number(Any)) 0.82 / core::f64::consts::PI,
         /// Position of the centre of pressure at an attack angle of 0, in chords, Eq. (17).
         pressure_offset: f64 = ("", "0.05", Number(Any)) 0.05,
-        /// Terms that the paper leaves out, in the force coefficients and the centre of pressure.
+        /// Terms that flap adds to the paper's formulas of the force coefficients and the centre of pressure.
         harmonics: HarmonicParameters = (flatten) HarmonicParameters::NONE,
         /// Factor that multiplies the rotational circulation of potential flow. With circulation_factor = 1,
         /// the circulation follows the theory of Kramer (1932) and Sane and Dickinson (2002). Arabagi et
