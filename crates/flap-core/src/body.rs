@@ -35,15 +35,15 @@ crate::parameters! {
         /// Upward velocity of the body. For a single wing, the parameter is the velocity of the shoulder
         /// along the stroke axis.
         body_velocity_up: f64 = ("m/s", "w", Number(Any), default: 0.0),
-        /// Roll rate of the body. A positive rate lifts the left side. For a single wing, the parameter is
-        /// the angular velocity of the shoulder about its forward axis. At zero stroke, the wing moves along
-        /// this axis when the stroke increases.
+        /// Roll rate of the body. A positive rate lifts the left side of the body. For a single wing, the
+        /// parameter is the angular velocity of the shoulder about its forward axis. At zero stroke, the wing
+        /// moves along this axis when the stroke increases.
         body_rate_roll: f64 = ("rad/s", "p", Number(Any), default: 0.0),
-        /// Pitch rate of the body. A positive rate lowers the nose. For a single wing, the parameter is the
-        /// angular velocity of the shoulder about the span at zero stroke.
+        /// Pitch rate of the body. A positive rate lowers the nose of the body. For a single wing, the
+        /// parameter is the angular velocity of the shoulder about the span at zero stroke.
         body_rate_pitch: f64 = ("rad/s", "q", Number(Any), default: 0.0),
-        /// Yaw rate of the body. A positive rate turns the nose to the left. For a single wing, the parameter
-        /// is the angular velocity of the shoulder about the stroke axis.
+        /// Yaw rate of the body. A positive rate turns the nose of the body to the left. For a single wing,
+        /// the parameter is the angular velocity of the shoulder about the stroke axis.
         body_rate_yaw: f64 = ("rad/s", "r", Number(Any), default: 0.0),
         /// Response of the wings to the motion of the body. With "passive", stroke and pitch respond to the
         /// motion of the body. With "frozen", the wings move as if the body were at rest, and only the loads

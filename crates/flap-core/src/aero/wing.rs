@@ -85,7 +85,7 @@ impl Outline {
     /// # Errors
     /// An error in these cases:
     ///
-    /// - There are fewer than two stations.
+    /// - The outline has fewer than two stations.
     /// - The first station is not at the root of the wing.
     /// - The distances of the stations from the root do not increase.
     /// - A chord is negative, or the area of the wing is zero.

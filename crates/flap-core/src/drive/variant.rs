@@ -104,7 +104,7 @@ impl Drive {
     }
 
     /// Returns the next time after `t` (s) at which a derivative of the waveform jumps. The result is
-    /// infinite if no derivative jumps.
+    /// infinite if no derivative of the waveform jumps.
     ///
     /// For a waveform from samples, the result is infinite, because the spline and its first two derivatives
     /// do not jump.

@@ -46,8 +46,8 @@ pub type Sums<S, R> = (Each<S, Totals<R>>, [R; 6]);
 /// over the first half.
 ///
 /// The function `second_half` computes the time integrals and extrema of the signals over the second half of
-/// the period. In the second half, the stroke, the force and the moment are mirror images of their values in
-/// the first half.
+/// the period. The stroke, the force and the moment in the second half of the period are mirror images of
+/// their values in the first half.
 pub(crate) fn over_both_halves<S: SignalSet>(
     (Each(first), load): &Sums<S, f64>,
     second_half: SecondHalf<S>,

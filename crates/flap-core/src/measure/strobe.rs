@@ -39,7 +39,8 @@ impl<const N: usize> Strobe<N> {
         Strobe { scale: *scale, tolerance, states: [*initial; LONGEST + 1], repeats: [0; LONGEST], cycles: 0 }
     }
 
-    /// Adds the state at the end of a period. Returns the length of the orbit in periods, if the motion has settled.
+    /// Adds the state at the end of a period to the strobe. Returns the length of the orbit in periods, if
+    /// the motion has settled.
     ///
     /// A motion has settled to an orbit of p periods if p + 1 consecutive states at period ends equal the
     /// states p periods earlier. For p > 1, the distance between consecutive states at period ends must also
@@ -83,7 +84,7 @@ impl<const N: usize> Strobe<N> {
         &self.states[1]
     }
 
-    /// Returns the number of period ends that were added to the strobe.
+    /// Returns the number of period ends at which a state was added to the strobe.
     pub fn cycles(&self) -> u32 {
         self.cycles
     }

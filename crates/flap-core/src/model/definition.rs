@@ -145,7 +145,7 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
     /// Measured signals, see [`signals!`](crate::signals).
     type Signals: SignalSet;
 
-    /// Name, description, parameters and properties.
+    /// Name, description, parameters and properties of the model.
     const DESCRIPTION: Description<'static>;
     /// Names of the columns in trajectories that contain the states, for example `pitch_rad`.
     const STATES: [&'static str; N];
@@ -216,8 +216,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         at: Instant<'_, R, Self::Input<R>, N>,
     ) -> SignalsOf<Self::Signals, R>;
 
-    /// Returns the signals of a variant for which [`Ode::is_plain`] is true. The function must return the
-    /// same bits as [`Model::signals`].
+    /// Returns the signals of a variant for which [`Ode::is_plain`] is true. The results of this function
+    /// must be bit-identical to the results of [`Model::signals`].
     #[inline(always)]
     fn plain_signals<R: Real>(
         &self,
@@ -282,7 +282,8 @@ pub trait Model<const N: usize>: Ode<N> + Clone + PartialEq + 'static {
         true
     }
 
-    /// Returns the number of parts into which each step is divided to find extrema of the signals.
+    /// Returns the number of parts into which each integration step is divided to find extrema of the
+    /// signals.
     ///
     /// The size of the integration steps depends only on the motion. Return a number of parts above 1 if
     /// signals change faster than the motion.

@@ -139,7 +139,7 @@ impl Statistics {
 pub enum Principal {
     /// Mean.
     Mean,
-    /// Amplitude of the first harmonic.
+    /// Amplitude of the first harmonic of the signal.
     First,
 }
 
@@ -156,7 +156,7 @@ impl Principal {
 /// A measure of a signal over one drive period.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// Half of the difference between the largest and the smallest value.
+    /// Half of the difference between the largest and the smallest value of the signal.
     Amplitude,
     /// Largest minus smallest value.
     PeakToPeak,
@@ -166,7 +166,7 @@ pub enum Measure {
     Max,
     /// Smallest value.
     Min,
-    /// Amplitude of the first harmonic.
+    /// Amplitude of the first harmonic of the signal.
     First,
     /// Root mean square.
     Rms,

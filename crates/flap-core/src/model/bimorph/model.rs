@@ -354,7 +354,7 @@ impl Model<4> for Bimorph {
         Bimorph { law, terms: self.terms.or(other.terms), ..self.clone() }
     }
 
-    /// Returns the start of a simulation from rest.
+    /// Returns the data with which a simulation from rest starts, see [`Model::start`].
     ///
     /// The typical sizes of the states equal the typical sizes in the direct-drive model, so tolerances and
     /// residuals are comparable. The typical sizes are 0.1 rad of stroke and 0.3 rad of pitch. The typical

@@ -26,8 +26,9 @@ pub(super) struct Aerodynamics<R> {
     pub(super) lift_moment: R,
     /// Moment of translational lift and drag about the rotation axis (N·m), Eqs. (16) and (17).
     pub(super) pitch_moment: R,
-    /// Rotational force, Eqs. (6) and (18). The lift L_r of the rotational force is the force times sin φ.
-    /// The moment Q_φ of the rotational force about the rotation axis is minus the span moment.
+    /// Rotational force: the force that the rotation of the wing about its rotation axis causes, Eqs. (6) and
+    /// (18). The lift L_r of the rotational force is the force times sin φ. The moment Q_φ of the rotational
+    /// force about the rotation axis is minus the span moment.
     pub(super) rotation: NormalLoad<R>,
 }
 

@@ -4,9 +4,9 @@
 //! and nonlinear springs. If all additional terms are zero, [`super::rhs`] computes the same derivatives as
 //! this module, apart from rounding errors.
 //!
-//! On a moving body, each strip has its own direction of flow, and the lift of each strip jumps at a
-//! different time. The aerodynamic functions of this module are not inlined into the code for the equations
-//! of the paper. If the terms that the paper leaves out are all zero, the module needs no computing time.
+//! On a moving body, each strip has its own direction of flow, and the lifts of the strips jump at different
+//! times. The aerodynamic functions of this module are not inlined into the code for the equations of the
+//! paper. If the terms that the paper leaves out are all zero, the module needs no computing time.
 //!
 //! The pitch ψ in [`crate::body`] has the opposite sign of the pitch φ in the four-bar model: ψ = −φ.
 
@@ -265,8 +265,8 @@ fn motion_within<R: Real>(
 /// direction within the step. If the flow past a strip reverses within the step, the function adds the
 /// integral of the change of the load that the reversal causes.
 ///
-/// The function `state` converts the integrated state at a time to the state of the wing. The function
-/// `slope` converts the derivative of the integrated state to the derivative of the state of the wing.
+/// The function `state` converts the state of the integrator at a time to the state of the wing. The function
+/// `slope` converts the derivative of the integrator's state to the derivative of the wing's state.
 #[inline(always)]
 pub(super) fn impulse<R: Lanes>(
     c: &Constants<R>,
@@ -340,8 +340,8 @@ pub(super) fn impulse<R: Lanes>(
     sums
 }
 
-/// Number of parts into which each step is divided. The search for jumps assumes that the flow past a strip
-/// reverses at most once in each part of a step.
+/// Number of parts into which each integration step is divided. The search for jumps assumes that the flow
+/// past a strip reverses at most once in each part of a step.
 const PARTS: usize = 4;
 
 /// Returns the interval within one part of a step in which the flow is reversed, as fractions of the step. If

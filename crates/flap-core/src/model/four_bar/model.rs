@@ -334,8 +334,8 @@ impl Model<4> for FourBar {
         )
     }
 
-    /// On a moving body, the lift of each strip jumps at a different time. flap does not search for the times
-    /// of these jumps.
+    /// On a moving body, the lifts of the strips jump at different times, and the integrator does not search
+    /// for the times of the jumps.
     fn has_slopes(&self) -> bool {
         self.terms.body == BodyTerms::None
     }

@@ -236,7 +236,7 @@ crate::choice! {
     pub enum AddedMassSign {
         /// φ̈ (c/2 − z_RA): the term that follows from the acceleration of the mid-chord.
         Corrected = "corrected",
-        /// φ̈ (z_RA − c/2): the term as printed.
+        /// φ̈ (z_RA − c/2): the term as printed in the paper.
         Printed = "printed",
     }
 }
