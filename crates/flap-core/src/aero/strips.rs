@@ -63,7 +63,7 @@ impl<const MAX: usize> Strips<f64, MAX> {
     /// Returns the strips of a wing in air of the density `air_density` (kg/m³). If `cuts` has more than
     /// `MAX` entries, only the first `MAX` entries are used.
     ///
-    /// The velocity of a strip is computed at a distance of `lever` chords (κ) from the pitch axis.
+    /// The velocity of a strip is computed at the distance `lever` (κ) times the chord from the pitch axis.
     pub(crate) fn new(cuts: &[Cut], air_density: f64, lever: f64) -> Strips<f64, MAX> {
         let mut strips = [[0.0; 4]; MAX];
         for (strip, &Cut { radius, chord, width }) in strips.iter_mut().zip(cuts) {
@@ -87,8 +87,8 @@ pub struct StripSums<R> {
 
 impl<R: Real, const MAX: usize> Strips<R, MAX> {
     /// Returns the strips as values of the type [`ObliqueStrip`], for a flow with a component along the
-    /// stroke axis. The velocity of each strip is computed at a point that is `behind` chords (κ) behind the
-    /// pitch axis.
+    /// stroke axis. The velocity of each strip is computed at the distance `behind` (κ) times the chord
+    /// behind the pitch axis.
     #[inline(always)]
     pub(crate) fn oblique(&self, behind: R) -> impl Iterator<Item = ObliqueStrip<R>> + '_ {
         self.strips[..self.count.min(MAX)].iter().map(

@@ -100,8 +100,8 @@ impl<R: Real> AddedMass<R> {
 
 crate::per_lane! {
     /// Rotational circulation κ c² ω of the sections of a wing at the pitch rate ω (Kramer 1932; Sane and
-    /// Dickinson 2002). κ is π (3/4 − x₀) times a factor, and the pitch axis is x₀ chords behind the leading
-    /// edge.
+    /// Dickinson 2002). κ is π (3/4 − x₀) times a factor, and the pitch axis lies behind the leading edge at
+    /// the distance x₀ times the chord.
     ///
     /// The force of the circulation, ρ u_C κ c² ω Δr, acts at a quarter of the chord. As in potential flow,
     /// the force is proportional to u_C, the component of the section's velocity along the chord. The formula

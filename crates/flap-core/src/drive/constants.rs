@@ -170,7 +170,7 @@ impl<R: Real> DriveConstants<R> {
         }
     }
 
-    /// Returns the value and the rate of change of the square wave at time `t` (s). The square wave rises at
+    /// Returns the square wave and its first two time derivatives at time `t` (s). The square wave rises at
     /// the beginning and at the end of the period, and falls in the middle of the period. Each rise and each
     /// fall has the shape of a sine from −90° to 90°.
     #[inline(always)]

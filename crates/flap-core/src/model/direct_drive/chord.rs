@@ -39,8 +39,8 @@ impl Params {
         }
     }
 
-    /// Returns the chord (m) at a distance of `span` wing lengths from the root. The chord comes from the
-    /// table, or from Legendre polynomials:
+    /// Returns the chord (m) at the distance `span` times the wing length from the root. The chord comes from
+    /// the table, or from Legendre polynomials:
     ///
     /// ```text
     /// c = c̄ (1 + a₁ P₁(z) + a₂ P₂(z) + a₃ P₃(z))     z = 2 span − 1
