@@ -24,7 +24,7 @@ const PRESET: &str = "preset.";
 const DEVICE: &str = "device.";
 
 /// Words in messages for the value of a drive frequency that is set to the resonance of each design.
-const RESONANCE: &str = "the resonance of each design, which [measure] has as resonance_hz";
+const RESONANCE: &str = "the resonance of each design, whose name in [measure] is resonance_hz";
 
 /// The names that expressions may contain: parameters, values of parameters in the preset or the device, and
 /// measures. The numbers that an expression reads have this order: parameters, the model's measures, the
