@@ -15,7 +15,8 @@ pub fn journal_of(results: &Path) -> PathBuf {
     with_ending(results, ".journal")
 }
 
-/// Returns the path of the file that contains the rows until a Parquet file is complete: `<results>.part`.
+/// Returns the path of the file that contains the rows of a Parquet file until the Parquet file is complete:
+/// `<results>.part`.
 pub fn part_of(results: &Path) -> PathBuf {
     with_ending(results, ".part")
 }

@@ -16,12 +16,13 @@ pub struct CsvSink<W: Write> {
 }
 
 impl<W: Write> CsvSink<W> {
-    /// Returns a sink that writes rows to `target`. The rows have the columns `names`.
+    /// Returns a sink that writes rows to `target`. `names` contains the names of the columns.
     pub fn new(names: Vec<String>, target: W) -> CsvSink<W> {
         CsvSink { names, lines: Lines::new(target) }
     }
 
-    /// Returns the target. After [`Sink::flush`] or [`Sink::finish`], the target contains all rows.
+    /// Returns the target. After [`Sink::flush`] or [`Sink::finish`], the target contains all rows that
+    /// were written to the sink.
     pub fn target(&self) -> &W {
         self.lines.target()
     }

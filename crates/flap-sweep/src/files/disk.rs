@@ -21,8 +21,8 @@ pub(crate) fn sync(file: &File) -> io::Result<()> {
 /// A new version of a file. The new version replaces the earlier version only when the new version is
 /// complete and safe on disk.
 ///
-/// Until the new version is complete, it is in a file without a name or with a temporary name. If the file
-/// name belongs to a symbolic link, the new version replaces the link, not the target of the link.
+/// Until the new version is complete, its file has no name or a temporary name. If the file name belongs to a
+/// symbolic link, the new version replaces the link, not the target of the link.
 pub(crate) struct Whole(AtomicWriteFile);
 
 impl Whole {
@@ -102,7 +102,8 @@ pub(crate) fn is_taken(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
 
-/// Largest number of symbolic links that [`target`] follows one after the other. Linux has the same limit.
+/// Largest number of symbolic links that [`target`] follows one after the other. Linux also follows at most
+/// 40 links.
 const MOST_LINKS: usize = 40;
 
 /// Returns the target of a symbolic link. The target of the link need not exist. A path that is not a link is
@@ -116,7 +117,7 @@ pub fn target(path: &Path) -> PathBuf {
     target
 }
 
-/// Empties a file. Does nothing for devices and pipes.
+/// Empties a file. The function does not change devices and pipes.
 ///
 /// # Errors
 /// Returns the error of the operating system.
@@ -158,7 +159,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Checks that the file with the name `path` is still the open file `file`.
+/// Checks that no program has removed or replaced the file at `path` since the file was opened as `file`.
 ///
 /// # Errors
 /// Returns [`io::ErrorKind::Other`] if there is no file at `path`, or if the file at `path` is a different
@@ -171,7 +172,8 @@ pub(crate) fn check_in_place(file: &File, path: &Path) -> io::Result<()> {
     }
 }
 
-/// Returns true if the file with the name `path` is still the open file `file`.
+/// Returns true if no program has removed or replaced the file at `path` since the file was opened as
+/// `file`.
 ///
 /// # Errors
 /// Returns the error of the operating system. On Windows, the error may be
@@ -184,7 +186,7 @@ pub(crate) fn is_in_place(file: &File, path: &Path) -> io::Result<bool> {
 }
 
 /// Returns true if `a` and `b` are paths of the same file. The result is false for devices and pipes, because
-/// devices and pipes store nothing.
+/// devices and pipes store nothing that a command could overwrite.
 pub fn is_same_file(a: &Path, b: &Path) -> bool {
     let is_file = |path| fs::metadata(path).is_ok_and(|metadata| metadata.is_file());
     is_file(a) && is_file(b) && same_file::is_same_file(a, b).unwrap_or(false)

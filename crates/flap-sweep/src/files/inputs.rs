@@ -19,7 +19,7 @@ pub struct Inputs {
 pub struct Overlap {
     /// Output file.
     pub output: PathBuf,
-    /// Words that describe the input file in the message, such as "the grid file".
+    /// Words that describe the input file in the error message, such as "the grid file".
     pub what: &'static str,
     /// Input file.
     pub input: PathBuf,

@@ -5,8 +5,8 @@
 //!
 //! For unfinished results, the journal records the number of rows that are safe on disk. The journal also
 //! records the identity of the sweep: the build and the settings that determine the rows. From undamaged
-//! unfinished results, flap reads only the rows that the journal counts. If the sidecar and the journal
-//! record different identities of the sweep, the results count as damaged.
+//! unfinished results, flap reads only the rows before the last checkpoint of the journal. If the sidecar
+//! and the journal record different identities of the sweep, the results count as damaged.
 
 use std::fmt;
 use std::fs::File;
@@ -40,7 +40,8 @@ const MOST_LISTED: usize = 5;
 pub struct Damage {
     /// Descriptions of the differences.
     differences: Vec<String>,
-    /// Number of rows that the journal counts, but that are missing in the file.
+    /// Number of rows that are missing in the file although the journal records that they were safe on
+    /// disk.
     pub lost: u64,
 }
 
@@ -98,11 +99,11 @@ pub fn foreign_sidecar(differences: &[String]) -> String {
     format!("its sidecar belongs to another sweep: {}", differences.join("; "))
 }
 
-/// Returns the ranges of rows in blocks whose checksum in `found` differs from the checksum in `written`.
-/// Rows are counted from 1, and `last` is the number of the last row.
+/// Returns the ranges of rows in the changed blocks. A block is changed if its checksums in `found` and
+/// in `written` differ. Rows are counted from 1, and `last` is the number of the last row.
 ///
-/// A range contains whole blocks, although perhaps only one row of a block has changed. If a row was removed
-/// or added, all later rows count as changed.
+/// A range contains all rows of a changed block, even if only one row of the block has changed. If a row was
+/// removed or added, all later rows count as changed.
 fn changed_rows(found: &[u32], written: &[u32], last: u64) -> Vec<RangeInclusive<u64>> {
     let mut ranges: Vec<RangeInclusive<u64>> = Vec::new();
     let blocks = written.len().max(found.len());
@@ -155,7 +156,7 @@ pub enum OpenError {
     },
 }
 
-/// A message for the user about the state of results.
+/// A message for the user about damaged or unverified results.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Note {
     /// Another program has changed the results.
@@ -249,7 +250,7 @@ fn locate(path: &Path, format: Format, sidecar: &Sidecar, checksums: &Checksums)
 /// Largest length of a row in a result file, in bytes.
 const LONGEST_ROW: u64 = 1 << 20;
 
-/// Format of the file that contains the rows until a Parquet file is complete.
+/// Format of the file that contains the rows of a Parquet file until the Parquet file is complete.
 const WAITING: Format = Format::CsvZstd;
 
 /// Results that are open for reading.

@@ -1,9 +1,9 @@
 //! The journal `<results>.journal` records the progress of a run whose results are unfinished.
 //!
 //! The first line of a journal identifies the run. Each line after the first line is a checkpoint. Each line
-//! begins with the checksum of the rest of the line. A checkpoint is added only when the rows that it counts
-//! are safe on disk. Lines are never changed. After a crash, the last line may be incomplete, so that its
-//! checksum is wrong.
+//! begins with the checksum of the rest of the line. A checkpoint is added to the journal only when all rows
+//! before the checkpoint are safe on disk. Existing lines of a journal are never changed. After a crash, the
+//! last line may be incomplete, so that its checksum is wrong.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read, Seek, SeekFrom, Write};
@@ -44,8 +44,8 @@ impl Header {
     }
 }
 
-/// A state from which a run can be resumed. Each line of a journal except the first line contains a
-/// checkpoint.
+/// Progress of a run at a moment from which the run can be resumed. Each line of a journal except the
+/// first line contains a checkpoint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Checkpoint {
     /// Total running time of the sweep in seconds, without the time of interruptions.
@@ -57,8 +57,9 @@ pub struct Checkpoint {
 }
 
 impl Checkpoint {
-    /// Returns a checkpoint after the rows that `summary` counts. `file` is the checksum of the bytes of
-    /// these rows, and `seconds` is the duration of the sweep so far.
+    /// Returns a checkpoint. `summary` is the summary of all rows before the checkpoint. `file` is the
+    /// number and the checksum of the bytes before the checkpoint. `seconds` is the running time of the
+    /// sweep before the checkpoint.
     pub fn new(seconds: f64, file: FileSum, mut summary: Summary) -> Checkpoint {
         // A checkpoint is one line, so reasons must not contain line ends.
         for invalid in &mut summary.invalid {
@@ -82,7 +83,8 @@ pub struct JournalContents {
 
 /// Parses the text of a journal up to the first incomplete or damaged line.
 ///
-/// Returns `None` if the first line is incomplete, or if the journal has the format of a different version.
+/// Returns `None` if the first line is incomplete, or if a version of flap with a different journal format
+/// wrote the journal.
 pub fn parse(text: &[u8]) -> Option<JournalContents> {
     let mut lines = text.split_inclusive(|&byte| byte == b'\n');
     let first = lines.next()?;
@@ -165,18 +167,20 @@ impl Journal {
     }
 }
 
-/// The last checkpoint whose rows are all in the file of rows.
+/// The last checkpoint at which the file of rows is complete: the file contains all rows before the
+/// checkpoint.
 pub(crate) struct IntactRows {
     pub(crate) checkpoint: Checkpoint,
     /// Number of bytes from the beginning of the journal to the end of the checkpoint's line.
     pub(crate) journal_bytes: u64,
     /// Hash of the bytes that the file of rows contained at the checkpoint.
     pub(crate) hash: Xxh3Default,
-    /// Number of rows that later checkpoints count, but that are missing in the file of rows.
+    /// Number of rows between this checkpoint and the last checkpoint of the journal. These rows are
+    /// missing in the file of rows.
     pub(crate) lost: u64,
 }
 
-/// Returns the last checkpoint in `journal` whose rows are all in `file`. Returns `None` if the bytes in
+/// Returns the last checkpoint in `journal` at which `file` is complete. Returns `None` if the bytes in
 /// `file` differ from the bytes that the run wrote.
 pub(crate) fn last_intact(mut file: &File, journal: &JournalContents) -> io::Result<Option<IntactRows>> {
     let mut hash = Xxh3Default::new();

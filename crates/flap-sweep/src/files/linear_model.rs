@@ -1,4 +1,5 @@
-//! Files with a linear hover model for other programs: JSON, MATLAB, Python and FMU. All numbers are in SI units.
+//! Files with a linear hover model for other programs. The formats of the files are JSON, MATLAB, Python and
+//! FMU. All numbers are in SI units.
 
 use std::io::{self, Write};
 use std::path::Path;
@@ -33,11 +34,12 @@ pub struct LinearModel {
     pub inputs: Vec<LinearInput>,
     /// Drive frequency (Hz).
     pub frequency: f64,
-    /// Largest Floquet multiplier of the wings.
+    /// Largest magnitude of the Floquet multipliers of the wings.
     pub floquet_max: f64,
-    /// Point to which torques and velocities refer, the centre of mass (m).
+    /// Position of the centre of mass (m). Torques and velocities refer to the centre of mass.
     pub about: [f64; 3],
-    /// Response of the wings to the motion of the body: `passive` or `frozen`.
+    /// Assumption about the wings while the body moves: the wings respond (`passive`), or keep their
+    /// motion (`frozen`).
     pub response: String,
     /// Name of the model, and of the preset or device.
     pub design: String,
@@ -60,7 +62,8 @@ impl LinearFormat {
     /// Endings of file names, for messages.
     pub const ENDINGS: &str = ".json, .mat, .py or .fmu";
 
-    /// Returns the format of a file by the ending of its name; `None` if the ending belongs to no format.
+    /// Returns the format that the ending of the file name `path` determines, or `None` if no format has
+    /// this ending.
     pub fn of(path: &Path) -> Option<LinearFormat> {
         match path.extension()?.to_str()? {
             "json" => Some(LinearFormat::Json),
@@ -73,12 +76,15 @@ impl LinearFormat {
 }
 
 impl LinearModel {
-    /// Returns the hover model at an operating point with these inputs and values of the vehicle's parameters.
+    /// Returns the hover model at an operating point. `values` contains the values of the vehicle's
+    /// parameters, and `at` contains the inputs and the effect of each input.
     ///
-    /// With `has_position`, the states include positions. `design` describes model and preset.
+    /// If `has_position` is true, the states include the position of the body. `design` contains the name
+    /// of the model, and the name of the preset or device.
     ///
     /// # Errors
-    /// An error if mass properties are missing or impossible, if the body moves, or if a derivative is missing.
+    /// Returns an error if a mass property is missing or impossible, if the body is not at rest, or if a
+    /// derivative cannot be computed.
     pub fn at(
         vehicle_run: &VehicleRun<'_>,
         values: &[f64],
@@ -113,10 +119,10 @@ impl LinearModel {
         self.hover.warnings(self.frequency, self.floquet_max)
     }
 
-    /// Writes the hover model in the format of the file.
+    /// Writes the hover model to `target` in the format `format`.
     ///
     /// # Errors
-    /// The error of writing to the target.
+    /// Returns the error of the operating system if the target cannot be written.
     pub fn write(&self, format: LinearFormat, target: &mut dyn Write) -> io::Result<()> {
         let variables = self.variables();
         match format {
@@ -127,7 +133,7 @@ impl LinearModel {
         }
     }
 
-    /// Returns the variables that a file contains in each format.
+    /// Returns the variables that the files of all formats except FMU contain.
     fn variables(&self) -> Vec<(&'static str, Variable)> {
         let texts = |texts: &[&str]| Variable::Texts(texts.iter().map(|text| (*text).to_owned()).collect());
         let (names, units): (Vec<&str>, Vec<&str>) = self.hover.states().iter().copied().unzip();
@@ -167,7 +173,7 @@ impl LinearModel {
         variables
     }
 
-    /// Returns names, units and values of numbers of the operating point and of the body.
+    /// Returns numbers that describe the operating point and the body, each with a name and a unit.
     fn numbers(&self) -> [(&'static str, &'static str, f64); 8] {
         let body = &self.hover.body;
         [
@@ -182,7 +188,7 @@ impl LinearModel {
         ]
     }
 
-    /// Returns the model with its operating point as constants.
+    /// Returns the model as an FMU. The constants of the FMU describe the operating point.
     fn fmu(&self) -> Fmu<'_> {
         let inputs = self.inputs.iter();
         let values =
@@ -219,7 +225,8 @@ fn json(variables: &[(&str, Variable)]) -> String {
     format!("{{\n{}\n}}\n", entries.collect::<Vec<_>>().join(",\n"))
 }
 
-/// Returns a Python module with the variables, which builds a system of python-control if python-control is installed.
+/// Returns the text of a Python module with the variables. If python-control is installed, the module also
+/// builds a `control.StateSpace`.
 fn python(variables: &[(&str, Variable)]) -> String {
     const HEAD: &str = "\
 \"\"\"Linear hover model of a flapping-wing vehicle, written by flap. All numbers are in SI units.
@@ -257,7 +264,8 @@ else:
     format!("{HEAD}{}{TAIL}", entries.collect::<String>())
 }
 
-/// Returns the shortest text that reads back as the same number, or `missing` if the number is not finite.
+/// Returns the shortest decimal text from which exactly the float `value` can be read, or `missing` if
+/// `value` is not finite.
 fn number(value: f64, missing: &str) -> String {
     if value.is_finite() { text::float(value) } else { missing.to_owned() }
 }
@@ -273,7 +281,7 @@ fn rows(matrix: &DMatrix<f64>, missing: &str) -> Vec<String> {
     (0..matrix.nrows()).map(|i| list(&row(i), missing)).collect()
 }
 
-/// Returns a text as a literal of JSON, which is also a literal of Python.
+/// Returns a text in quotes, so that both JSON and Python can read the text.
 fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string()
 }

@@ -128,8 +128,8 @@ fn shared(sidecar: &Sidecar) -> Identity {
     Identity { flap, build, selection: Selection::All.to_string(), ..sidecar.identity.clone() }
 }
 
-/// Returns the sidecar for the merged rows of all `parts`, without checksums. Returns `None` if `parts` is
-/// empty.
+/// Returns the sidecar for the merged rows of all `parts`. The sidecar contains no checksums. Returns `None`
+/// if `parts` is empty.
 ///
 /// The sidecar resembles the sidecar of a sweep on one machine, but lists the versions and builds of all
 /// shards. The sidecar contains the sum of the threads of all shards, and the sum of the durations of all

@@ -66,8 +66,8 @@ impl CreateError {
 /// - [`CreateError::Unfinished`] if `overwrite` is false and there is a journal, either of the file or of a
 ///   new file that will replace the file.
 /// - [`CreateError::InTheWay`] if a file of another program has the name of the sidecar or of the lock file.
-///   If `overwrite` is false, an existing sidecar causes the same error as a file of another program. The
-///   exception is a sidecar of a run that was killed before its first row.
+///   If `overwrite` is false, an existing sidecar causes the same error as a file of another program.
+///   However, the sidecar of a run that was killed before its first row causes no error.
 /// - [`CreateError::Busy`] if another run has locked the file.
 /// - [`CreateError::Io`] if the file cannot be opened.
 pub fn create(path: &Path, overwrite: bool) -> Result<(File, Option<Lock>), CreateError> {
@@ -154,8 +154,8 @@ pub(crate) fn lock(path: &Path) -> Result<Lock, CreateError> {
     }
 }
 
-/// Removes the lock files of a killed run: the lock file of the results at `path`, and the lock file of their
-/// unfinished replacement.
+/// Removes the lock files of a killed run: the lock file of the results at `path`, and the lock file of the
+/// unfinished new results. If another process uses a lock file, the function keeps the lock file.
 pub(crate) fn remove_unused_locks(path: &Path) {
     for results in [path, &replacement::of(path)] {
         let lock = lock_of(results);

@@ -172,8 +172,8 @@ impl Record {
     /// Returns a smooth function of time through the measured values of a quantity.
     ///
     /// # Errors
-    /// - [`RecordError::Wrong`] if two samples are too close in time, or if the samples do not define a
-    ///   smooth function.
+    /// - [`RecordError::Wrong`] if the times of two measured values are too close, or if the measured
+    ///   values do not define a smooth function.
     /// - Any error that [`Record::column`] returns for the time or for the quantity.
     pub fn samples(&self, quantity: &Quantity<'_>, repeat: Repeat) -> Result<Samples, RecordError> {
         let (times, values) = (self.column(&TIME)?, self.column(quantity)?);
@@ -189,8 +189,8 @@ impl Record {
         Samples::new(&times, &values, repeat).map_err(|error| self.wrong(&error.to_string()))
     }
 
-    /// Returns a warning if the spline through the samples has values far outside the range of the samples.
-    /// In the warning, the text `unit` stands after the numbers.
+    /// Returns a warning if the spline through the measured values leaves the range of these values by more
+    /// than 2 % of the range. In the warning, the text `unit` stands after the numbers.
     pub fn overshoot(&self, samples: &Samples, unit: &str) -> Option<String> {
         let ([low, high], [from, to]) = (samples.range(), samples.sample_range());
         ((from - low).max(high - to) > OVERSHOOT * (to - from)).then(|| {
@@ -205,7 +205,8 @@ impl Record {
     /// Returns the stroke and the pitch of a filmed wing over time, and the centre of rotation of the wing.
     ///
     /// The record must contain the tracked points `root` and `tip` in every image. To compute the pitch, the
-    /// function also needs the point `edge` and the length `chord` in the unit of the points.
+    /// function also needs the point `edge` and the length `chord`, in the unit of the coordinates of the
+    /// points.
     ///
     /// # Errors
     /// - [`RecordError::Wrong`] if the points have no centre of rotation, or if the chord in an image is
@@ -242,15 +243,16 @@ fn not_a_number(name: &str, line: u64, heading: &str, cell: &str) -> RecordError
     RecordError::Wrong(format!("{name}, line {line}, column {heading}: `{cell}` is not a number"))
 }
 
-/// Smallest accepted time between two samples, relative to the duration of the record. For a record that is
-/// shorter than 1 s, the smallest accepted time is 1e-12 s.
+/// Smallest accepted time between two measured values, relative to the duration of the record. For a record
+/// that is shorter than 1 s, the smallest accepted time is 1e-12 s.
 const LEAST_STEP: f64 = 1e-12;
 
-/// If the spline leaves the range of the samples by more than this fraction of the range, flap prints a
-/// warning.
+/// If the spline leaves the range of the measured values by more than this fraction of the range, flap
+/// prints a warning.
 const OVERSHOOT: f64 = 0.02;
 
-/// Largest difference between two numbers that count as equal, relative to the largest number of the column.
+/// Largest difference between two numbers that count as equal, relative to the largest magnitude in the
+/// column.
 const SAME: f64 = 1e-6;
 
 /// Returns the part of a message that lists the headings of a file.

@@ -1,9 +1,9 @@
 //! Removes and replaces result files and the files beside them. The functions of this module change only
 //! files that flap wrote.
 //!
-//! flap recognises its own journals by the checksum of the first line, and its own sidecars by their entries.
-//! If a journal exists, flap also wrote the file `<results>.part`, because flap creates a journal only if
-//! there is no file `<results>.part`.
+//! The checksum of the first line shows that flap wrote a journal. The entries of a sidecar show that
+//! flap wrote the sidecar. If a journal exists, flap also wrote the file `<results>.part`, because flap
+//! creates a journal only if there is no file `<results>.part`.
 //!
 //! With `--restart`, the earlier results keep their names until the new results are complete. Until the new
 //! results of `rows.csv` are complete, flap writes them to `rows.new.csv`, with a sidecar and a journal

@@ -207,7 +207,7 @@ impl Session {
     }
 
     /// Copies all rows of the complete results at `path` to the beginning of the new results. The copied rows
-    /// must be rows of the same plan. `summary` counts the copied rows.
+    /// must be rows of the same plan. `summary` is the summary of the copied rows.
     ///
     /// # Errors
     /// Returns the error of the operating system if a file cannot be read or written.

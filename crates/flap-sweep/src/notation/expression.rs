@@ -2,9 +2,9 @@
 //! `1.52e-6 * (transmission_ratio / preset.transmission_ratio)^-1.47`.
 //!
 //! flap checks an expression once, when it reads the grid file. The check finds unknown names, and conditions
-//! in place of numbers. A parsed expression is a flat list of operations. Functions such as `sin` come from
-//! `libm`, so the values of expressions have the same bits on every machine. See `docs/reference/grid.md` for
-//! the language of expressions.
+//! at positions where a number is required. A parsed expression is a flat list of operations. Functions such
+//! as `sin` come from `libm`, so the values of expressions have the same bits on every machine. See
+//! `docs/reference/grid.md` for the language of expressions.
 //!
 //! Operations on NaN give NaN. A comparison with NaN is unknown: neither true nor false. If an operand of
 //! `and`, `or` or `not` is unknown, the result is unknown, unless the known operand alone determines the
@@ -62,7 +62,7 @@ pub struct Expression {
 }
 
 impl Expression {
-    /// Parses and checks the expression `text`. All names in `text` must be in `scope`.
+    /// Parses and checks the expression `text`. `scope` must contain all names in `text`.
     ///
     /// # Errors
     /// Returns all mistakes up to the first mistake in the syntax. The position of each mistake is a byte

@@ -10,12 +10,12 @@ use xxhash_rust::xxh3::xxh3_64;
 
 use super::units::prefixed;
 
-/// Returns the shortest decimal text from which the same number can be read.
+/// Returns the shortest decimal text from which exactly the float `value` can be read.
 ///
-/// Numbers from 1e-4 up to 1e9 are written in full (`0.0012`, `100.0`), other numbers with an exponent
-/// (`1.52e-6`, `1.43e10`). The text of a finite number always contains a point or an exponent. Programs that
-/// infer the type of a column from its first rows therefore infer a float. The text of NaN is empty, so its
-/// cell is empty.
+/// Numbers from 1e-4 up to 1e9 are written in full (`0.0012`, `100.0`). All other numbers are written with an
+/// exponent (`1.52e-6`, `1.43e10`). The text of a finite number always contains a decimal point or an
+/// exponent. Programs that infer the type of a column from its first rows therefore infer a float. The text
+/// of NaN is empty, so the cell of an unknown value is empty.
 ///
 /// ```
 /// assert_eq!(flap_sweep::notation::text::float(120.0), "120.0");
@@ -141,8 +141,8 @@ pub fn value(parameter: &Parameter, value: f64) -> String {
     }
 }
 
-/// Returns the value of a parameter as text for people. The text is a number with six digits, a prefix and a
-/// unit, such as `1.52 uN*m/rad`, or the name of an option.
+/// Returns the value of a parameter as text that is easy to read for the user. The text is a number with six
+/// digits, a prefix and a unit, such as `1.52 uN*m/rad`, or the name of an option.
 pub fn shown(parameter: &Parameter, value: f64) -> String {
     match option(parameter, value) {
         Some(name) => name.to_owned(),
@@ -247,8 +247,8 @@ mod tests {
 
     use super::*;
 
-    /// Generates numbers with random bits, numbers that are typical of rows, and numbers with few bits. Some
-    /// of the numbers with few bits lie half-way between two decimal texts.
+    /// Generates numbers with random bits, numbers that are typical of rows, and numbers with few significant
+    /// bits. Some of the numbers with few significant bits lie half-way between two decimal numbers.
     fn numbers() -> impl Strategy<Value = f64> {
         let few_bits = (any::<i64>(), 10..64_u32, -80..40_i32)
             .prop_map(|(bits, dropped, exponent)| (bits >> dropped) as f64 * f64::from(exponent).exp2());

@@ -1,8 +1,9 @@
 //! Parses quantities with units in grid files, such as `"200 V"`, `"1.52 uN*m/rad"` or `"45 °"`.
 //!
-//! A quantity is a number followed by a unit. A unit consists of symbols with SI prefixes, joined by `*`, `·`
-//! and `/`, with powers such as `^2` or `²`. SI prefixes change the exponent in the text of the number,
-//! before the number is rounded to a float. For example, `"135 um"` is exactly the float `135e-6`.
+//! A quantity is a number followed by a unit. A unit consists of symbols that are joined by `*`, `·` and `/`.
+//! A symbol may have an SI prefix, and a power such as `^2` or `²`. SI prefixes change the exponent in the
+//! text of the number, before the number is rounded to a float. For example, `"135 um"` is exactly the float
+//! `135e-6`.
 
 mod number;
 mod prefixed;

@@ -26,7 +26,7 @@ pub struct Way<'a> {
     /// Values of the measure; NaN if missing.
     pub y: &'a [f64],
     /// Values of the column `bistable`. A value is true if the motions of the branches `up` and `down`
-    /// differ.
+    /// differ at this value of the parameter.
     pub bistable: &'a [bool],
 }
 

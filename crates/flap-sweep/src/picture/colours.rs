@@ -31,8 +31,8 @@ pub fn shade(index: usize, count: usize) -> Option<f64> {
 
 /// Returns true if the range from `low` to `high` contains both negative and positive numbers.
 ///
-/// For numbers with both signs, pictures use a diverging colour map with zero in the middle. The shorter part
-/// of the range, below or above zero, must also be more than 2 % of the longer part.
+/// For numbers with both signs, pictures use a diverging colour map with zero in the middle. The result is
+/// also false if the shorter of the parts below and above zero is at most 2 % of the longer part.
 pub fn is_signed(low: f64, high: f64) -> bool {
     const LEAST: f64 = 0.02;
     low < 0.0 && high > 0.0 && (-low).min(high) > LEAST * (-low).max(high)

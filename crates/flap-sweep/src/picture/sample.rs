@@ -107,8 +107,8 @@ fn ranks(values: &[f64]) -> Vec<f64> {
 /// Returns the rank correlation of each parameter with a measure, together with the index of the parameter.
 /// The correlation with the largest magnitude is the first.
 ///
-/// The result leaves out parameters whose correlation is not defined. If the values of several parameters are
-/// in the same or the reverse order, the result contains only the first of these parameters.
+/// The result leaves out parameters whose correlation is not defined. If the rank correlation of two
+/// parameters is 1 or -1, the result contains only the first of the two parameters.
 pub fn correlations(parameters: &[&[f64]], measure: &[f64]) -> Vec<(usize, f64)> {
     const SAME: f64 = 1.0 - 1e-9;
     let mut found: Vec<(usize, f64)> = Vec::new();

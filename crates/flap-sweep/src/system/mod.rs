@@ -1,5 +1,5 @@
-//! Functions whose code differs between operating systems. For each kind of operating system, one source file
-//! contains these functions.
+//! Functions whose code differs between operating systems. Each source file of this module is for one
+//! kind of operating system.
 
 #[cfg(unix)]
 mod unix;

@@ -265,7 +265,7 @@ pub struct Scale {
     pub unit: String,
 }
 
-/// Prefixes of units and their powers of ten.
+/// SI prefixes of units, each with its power of ten.
 const PREFIXES: [(&str, i32); 8] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("µ", -6), ("n", -9), ("p", -12)];
 

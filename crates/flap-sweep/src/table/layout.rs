@@ -261,7 +261,7 @@ impl<'p> Entry<'p> {
 /// Description of a column of a result file: its name, its unit, its type and its meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Name of the column. The name of a measure includes the unit.
+    /// Name of the column. The name of a measure includes its unit, as in `lift_mean_mn`.
     pub name: String,
     /// Unit as text; empty for a column without a unit.
     pub unit: Cow<'static, str>,

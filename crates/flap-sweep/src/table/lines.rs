@@ -11,7 +11,8 @@ use crate::table::layout::Cell;
 /// Writer of lines to a target of the type `W`.
 pub(crate) struct Lines<W: Write> {
     target: BufWriter<W>,
-    /// Current line. The string is kept to reuse its memory.
+    /// Current line. The string is kept between lines, so that flap does not allocate memory for every
+    /// line.
     line: String,
 }
 

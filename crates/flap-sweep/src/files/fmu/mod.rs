@@ -1,7 +1,8 @@
 //! Functional mock-up units (FMUs, version 3.0 of the standard) of linear models.
 //!
-//! An FMU contains source code in C, which users or importers compile. Source: Modelica Association, Functional Mock-up
-//! Interface Specification, version 3.0, sections 2.4 (model description) and 2.5 (archive).
+//! An FMU contains source code in C. The user, or the program that simulates the FMU, compiles the source
+//! code. Source: Modelica Association, Functional Mock-up Interface Specification, version 3.0, sections 2.4
+//! (model description) and 2.5 (archive).
 
 use std::collections::BTreeSet;
 use std::io::{self, Cursor, Write as _};
@@ -25,7 +26,8 @@ const BUILD_DESCRIPTION: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 </fmiBuildDescription>
 "#;
 
-/// A linear model x' = A x + B s with the outputs x.
+/// A linear model x' = A x + B s with the states x and the inputs s. The outputs of the model are the
+/// states x.
 pub(super) struct Fmu<'m> {
     /// Description of the model.
     pub(super) description: String,
@@ -37,15 +39,15 @@ pub(super) struct Fmu<'m> {
     pub(super) states: &'m [(&'m str, &'m str)],
     /// Names and units of the inputs.
     pub(super) inputs: Vec<(&'m str, &'m str)>,
-    /// Names, units and values of constants, at least one.
+    /// Names, units and values of the constants. The list contains at least one constant.
     pub(super) constants: Vec<(String, &'m str, f64)>,
 }
 
 impl Fmu<'_> {
-    /// Returns the archive. Equal models have equal bytes.
+    /// Returns the archive. The archives of equal models have equal bytes.
     ///
     /// # Errors
-    /// An error if the archive is too large for the format.
+    /// Returns an error if the archive is larger than the ZIP format allows.
     pub(super) fn archive(&self) -> io::Result<Vec<u8>> {
         let numbers = self.numbers();
         let token = text::hash(&[&self.description(""), &numbers, CODE].concat());
@@ -57,7 +59,7 @@ impl Fmu<'_> {
         ])
     }
 
-    /// Returns the numbers of the model, in C.
+    /// Returns C code that defines the matrices and the constants of the model.
     fn numbers(&self) -> String {
         let list = |values: &mut dyn Iterator<Item = f64>| {
             format!("{{{}}}", values.map(text::float).collect::<Vec<_>>().join(", "))
@@ -76,7 +78,7 @@ impl Fmu<'_> {
         )
     }
 
-    /// Returns the model description, in XML.
+    /// Returns the XML text of the file `modelDescription.xml`.
     fn description(&self, token: &str) -> String {
         // Names, units and other attributes in the order of the value references.
         let mut variables = vec![("time".to_owned(), "s".to_owned(), continuous("independent"))];
@@ -160,7 +162,8 @@ fn continuous(causality: &str) -> String {
     format!(r#"causality="{causality}" variability="continuous""#)
 }
 
-/// Returns the definition of a unit by SI base units; without base units if flap does not know the unit.
+/// Returns the XML element that defines a unit by the powers of the SI base units. If flap does not know
+/// the unit, the element contains no base units.
 fn unit_definition(unit: &str) -> String {
     let base = units::si_powers(unit).map(|powers| {
         let powers = powers.iter().filter(|(_, exponent)| *exponent != 0);
@@ -170,7 +173,8 @@ fn unit_definition(unit: &str) -> String {
     format!("    <Unit name=\"{}\">{}</Unit>\n", escaped(unit), base.unwrap_or_default())
 }
 
-/// Returns a text as the value of an attribute in XML.
+/// Returns a copy of `text` that can be the value of an XML attribute: special characters such as `<` are
+/// escaped.
 fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

@@ -186,7 +186,8 @@ impl<'a> Job<'a> {
         Sidecar::new(self.plan, started, &self.options.run, self.origin.clone())
     }
 
-    /// Returns a job that is ready to write rows after the rows that `before` counts.
+    /// Returns a job that is ready to write rows. `before` is the summary of the rows that earlier runs
+    /// have written.
     fn writing(&'a self, target: Target, before: Summary, lost: Option<u64>, locks: Vec<Lock>) -> Begun<'a> {
         Begun::Writing(Box::new(Writing { job: self, target, before, lost, locks, begun: Instant::now() }))
     }
@@ -287,8 +288,8 @@ pub enum JobError {
     Exists {
         /// The file.
         path: PathBuf,
-        /// Descriptions of the differences between the rows in the file and the rows of the job; empty if
-        /// unknown.
+        /// Descriptions of the differences between the rows in the file and the rows of the job. The list
+        /// is empty if the differences are unknown.
         changes: Vec<String>,
         /// Description of the first line in which the grid file differs from the grid in the sidecar.
         changed: Option<String>,

@@ -2,8 +2,9 @@
 //! rows.
 //!
 //! flap computes the checksums from the rows as CSV text. The CSV text is the same for every file format, so
-//! the conversion of a file does not change the checksums. Each block of rows begins at a fixed line of the
-//! file. The checksums therefore do not depend on the number of threads or on interruptions of the run.
+//! the checksums stay the same when a file is converted to a different format. Each block of rows begins at a
+//! fixed line of the file. The checksums therefore do not depend on the number of threads or on interruptions
+//! of the run.
 
 use std::fmt::Write as _;
 use std::io::{self, Read, Write};
@@ -37,7 +38,7 @@ pub struct Checksums {
     /// Number of rows in each block except the last block.
     pub block_rows: u32,
     /// Lower 32 bits of the XXH3 hash of every block of rows. For a block, 32 bits are sufficient, because
-    /// the checksum `text` of all rows already detects the damage.
+    /// the checksum `text` detects any damage, and the checksums of blocks only locate the damage.
     pub blocks: String,
     /// Checksum of the bytes of the file; `None` if the file is a converted copy of a damaged file.
     pub file: Option<FileSum>,
@@ -78,7 +79,7 @@ impl Checksums {
 pub(crate) struct TextDigest {
     whole: Xxh3Default,
     block: Xxh3Default,
-    /// True if the hash `block` already contains bytes of the current block.
+    /// True if the hash `block` was computed from at least one byte of the current block.
     is_begun: bool,
     lines: u64,
     /// Checksum of the header, then the checksums of the complete blocks of rows.

@@ -1,8 +1,9 @@
 //! Reads and writes the rows of result files as text, in all formats.
 //!
-//! A row has the same text in every format. The text of a cell is always the text of
+//! A row is the same text in all file formats. The text of a cell is always the text of
 //! [`Layout::cells`](crate::table::layout::Layout::cells), both for computed rows and for rows from a file. A
-//! converted file or a file of merged shards therefore has the same bytes as the file of a single sweep.
+//! converted file or a file of merged shards therefore has the same bytes as a file that one sweep writes
+//! directly.
 
 mod checksum;
 #[cfg(feature = "parquet")]

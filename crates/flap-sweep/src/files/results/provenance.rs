@@ -75,8 +75,8 @@ fn devices(plan: &Plan) -> Devices {
     Devices { device: device.collect() }
 }
 
-/// Returns the values that the parameters have if no axis varies them. Parameters without a fixed value, such
-/// as computed parameters, are left out.
+/// Returns the value that each parameter has if no axis varies this parameter. Parameters without a fixed
+/// value, such as computed parameters, are left out.
 pub(crate) fn parameters(plan: &Plan) -> BTreeMap<String, Value> {
     let value = |parameter: &Parameter, value: f64| match text::option(parameter, value) {
         Some(option) => Value::String(option.to_owned()),

@@ -138,7 +138,8 @@ impl Reader {
         self.missed.as_ref().filter(|missed| !missed.is_none())
     }
 
-    /// If the reader is tolerant, counts the last row as left out and returns true. Otherwise returns false.
+    /// If the reader is tolerant, adds the last row to the number of left-out rows, and returns true.
+    /// Otherwise returns false.
     pub fn leave_out(&mut self) -> bool {
         self.missed.as_mut().map(|missed| missed.rows += 1).is_some()
     }

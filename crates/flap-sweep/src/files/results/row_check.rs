@@ -154,7 +154,8 @@ pub enum RowsError {
 }
 
 impl<'a> Checked<'a> {
-    /// Returns a reader that checks the rows of `reader`. No row may have been read from `reader` before.
+    /// Returns a reader that checks the rows of `reader`. Before this call, no row may have been read
+    /// from `reader`.
     ///
     /// # Errors
     /// Returns [`RowsError::Columns`] if the file's columns differ from the plan's columns.

@@ -11,11 +11,11 @@ use crate::notation::text::digits;
 use crate::table::layout::Cell;
 use crate::table::lines::Lines;
 
-/// Compression level: Zstandard's default. Higher compression levels take longer and hardly reduce the size.
+/// Compression level: Zstandard's default. Higher levels take longer, and the files are hardly smaller.
 const LEVEL: i32 = 3;
 
-/// Binary logarithm of the largest memory, in bytes, for decompressing a file. The command `zstd` has the
-/// same memory limit.
+/// Binary logarithm of the largest memory, in bytes, for decompressing a file. The command `zstd` also
+/// limits the memory to 128 MiB by default.
 const WINDOW_LOG_MAX: u32 = 27;
 
 /// Writer of CSV text: one header line, then one line per row.
@@ -37,7 +37,7 @@ impl TextRows {
     }
 
     /// Returns a writer that continues `file` after its first `bytes` bytes. `hash` is the hash of these
-    /// bytes, and `text` contains the checksums of their rows.
+    /// bytes, and `text` contains the checksums of the rows in these bytes.
     ///
     /// The first `bytes` bytes must end with a complete row, and in compressed files with a complete frame.
     pub(crate) fn after(

@@ -63,8 +63,8 @@ pub struct Sidecar {
     pub rerun: Option<Rerun>,
     /// Parameter along which response curves were computed; `None` if the rows contain no response curves.
     pub followed: Option<Followed>,
-    /// Values that the parameters have if no axis varies them. Parameters without a fixed value, such as
-    /// computed parameters, are left out.
+    /// The value that each parameter has if no axis varies this parameter. Parameters without a fixed
+    /// value, such as computed parameters, are left out.
     parameters: BTreeMap<String, Value>,
     /// Varied parameters.
     varied: Vec<Unit>,
@@ -110,7 +110,8 @@ pub struct Rerun {
     pub origin: Origin,
     /// Indices of the points, such as `3,17,20-31`.
     pub points: String,
-    /// Points that a refinement has added. A point is stored as a list of its positions along all axes.
+    /// Points that a refinement has added. Each point is a list with one position for each axis. For
+    /// example, the position 1.5 is midway between the second and the third value of an axis.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub added: Vec<Vec<f64>>,
 }

@@ -10,11 +10,12 @@ use super::scope::Kind;
 pub struct ExpressionError {
     /// Byte range of the mistake in the text. The range is empty if text is missing at this position.
     pub span: Range<usize>,
-    /// Kind of the mistake. Callers use the kind to give more specific advice.
+    /// Kind of the mistake. For some kinds of mistakes, the caller replaces `help` by more specific
+    /// advice.
     pub mistake: Mistake,
     /// Message.
     pub message: String,
-    /// Advice for the user, such as the allowed forms; `None` if there is no advice.
+    /// Advice for the user, such as a correct way to write the expression; `None` if there is no advice.
     pub help: Option<String>,
 }
 

@@ -376,9 +376,9 @@ fn nearest_or_all(name: &str, known: &[&str], what: &str) -> String {
     nearest(name, known.iter().copied()).map_or_else(all, did_you_mean)
 }
 
-/// Returns the error for the parameter `name`, which has no number. `follows` describes the parameters from
-/// which its value is computed. `designs` lists the designs without a number, and is empty if all designs
-/// lack the number.
+/// Returns the error for the parameter `name`, whose value is not set. `follows` describes the parameters
+/// from which the model computes the value. `designs` lists the designs in which the value is not set, and is
+/// empty if no design sets the value.
 fn unset(name: &str, follows: &str, designs: &str, span: &Range<usize>) -> ExpressionError {
     let why = text::no_default(follows).unwrap_or_else(|| format!("it follows other parameters ({follows})"));
     let help = if name.contains('.') {

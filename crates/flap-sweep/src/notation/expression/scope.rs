@@ -27,9 +27,9 @@ pub enum Meaning<'a> {
     /// A number that depends on a choice. The variant contains the index of the choice in the list of values,
     /// and one number for each option.
     OfChoice(usize, Arc<[f64]>),
-    /// A parameter that has no number. The first field of the variant describes the parameters from which the
-    /// value is computed. The second field lists the designs without a number, such as "the device `long`",
-    /// or is empty if all designs lack the number.
+    /// A parameter whose value is not set. The first field of the variant describes the parameters from which
+    /// the model computes the value. The second field lists the designs in which the value is not set, such
+    /// as "the device `long`". The second field is empty if no design sets the value.
     Unset(&'static str, String),
 }
 

@@ -326,7 +326,7 @@ proptest! {
         }
     }
 
-    /// Sums, products and powers of random numbers equal the results of Rust.
+    /// For random numbers, the value of an expression equals the value that Rust computes.
     #[test]
     fn arithmetic_is_that_of_rust(a in -1e3..1e3_f64, b in -1e3..1e3_f64, c in 0.1..3.0_f64) {
         prop_assert_eq!(value(&format!("{a} + {b} * {c}")), a + b * c);

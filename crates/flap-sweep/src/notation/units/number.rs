@@ -143,7 +143,8 @@ pub(crate) struct Number<'t> {
 }
 
 /// Finds the decimal number without a sign at the beginning of `text`. Returns the length of the number in
-/// bytes, first without the exponent, then with the exponent. The number may be empty or a single point.
+/// bytes, first without the exponent, then with the exponent. The number may have no characters, or may
+/// consist of a decimal point without digits.
 pub(crate) fn decimal(text: &str) -> (usize, usize) {
     let bytes = text.as_bytes();
     let digits = |from: usize| bytes[from..].iter().take_while(|byte| byte.is_ascii_digit()).count();

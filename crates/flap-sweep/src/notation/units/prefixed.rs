@@ -2,7 +2,7 @@
 
 use super::parse_as;
 
-/// Prefixes and their powers of ten.
+/// SI prefixes, each with its power of ten.
 const PREFIXES: [(&str, i32); 9] =
     [("G", 9), ("M", 6), ("k", 3), ("", 0), ("m", -3), ("u", -6), ("n", -9), ("p", -12), ("f", -15)];
 

@@ -20,7 +20,8 @@ pub(super) struct Unit {
 impl Unit {
     const ONE: Unit = Unit { dimension: Dimension::base(0, 0, 0, 0), shift: 0, above: 1.0, below: 1.0 };
 
-    /// Returns the product of this unit and a power of a symbol with its prefix.
+    /// Returns this unit multiplied by the symbol `symbol` to the power `power`. `prefix` is the power of
+    /// ten of the symbol's prefix.
     fn times(mut self, symbol: &Symbol, prefix: i32, power: i32) -> Unit {
         self.dimension = self.dimension.times(symbol.dimension, power);
         self.shift = self.shift.saturating_add((symbol.shift + prefix).saturating_mul(power));
@@ -289,7 +290,7 @@ pub(super) struct Symbol {
     usual: &'static [&'static str],
 }
 
-/// Prefixes and their powers of ten.
+/// SI prefixes, each with its power of ten.
 const PREFIXES: &[(&str, i32)] = &[
     ("T", 12),
     ("G", 9),

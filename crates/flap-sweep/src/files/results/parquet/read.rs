@@ -166,8 +166,8 @@ fn guarded<T>(decode: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
 /// have about 1 MiB, and pages that flap writes are smaller.
 const LARGEST_PAGE: u64 = 256 << 20;
 
-/// First byte of a field in Thrift's compact protocol. The byte says that the field is an integer, and that
-/// its number is one more than the number of the previous field.
+/// First byte of a field in Thrift's compact protocol. The byte means that the field is an integer, and that
+/// the field's number is the number of the previous field plus one.
 const NEXT_NUMBER: u8 = 0x15;
 
 /// A Parquet file from which only pages of a limited size are read. The limit is necessary, because a few
