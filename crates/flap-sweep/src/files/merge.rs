@@ -37,7 +37,8 @@ pub enum MergeError {
     /// text for each mistake.
     #[error("{}", .0.join("\n"))]
     Parts(Vec<String>),
-    /// Different builds of flap computed the shards. The error contains the first shard of each build.
+    /// Different builds of flap computed the shards. The error contains, for each build, the first shard
+    /// that this build computed.
     #[error("the shards were computed by several builds of flap, whose rows may differ: {}", .0.join(", "))]
     Builds(Vec<String>),
     /// A shard cannot be read.

@@ -114,7 +114,8 @@ impl Record {
     }
 
     /// Returns the numbers of a quantity in SI units. If several columns contain the quantity, such as
-    /// `stroke_rad` and `stroke_deg`, their numbers must agree.
+    /// `stroke_rad` and `stroke_deg`, the columns must contain equal values after the conversion to SI
+    /// units.
     ///
     /// # Errors
     /// - [`RecordError::Missing`] if no column contains the requested quantity.

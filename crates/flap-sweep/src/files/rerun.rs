@@ -37,7 +37,8 @@ impl Wanted {
         self.statuses.iter().map(|status| status.name()).chain(inaccurate).map(str::to_owned).collect()
     }
 
-    /// Returns true if a row with the status `status` and the error estimate `estimate` is selected.
+    /// Returns true if the criteria select a row with the status `status` and the error estimate
+    /// `estimate`.
     fn includes(&self, status: Option<&str>, estimate: Option<&str>) -> bool {
         let estimate = estimate.and_then(|cell| cell.parse::<f64>().ok());
         self.statuses.iter().any(|wanted| status == Some(wanted.name()))

@@ -8,8 +8,8 @@ pub enum Role {
     /// Measure on the vertical axis in pictures of a response or a hysteresis loop. The horizontal axis shows
     /// a parameter.
     Response,
-    /// Benefit of a design, for example lift. Pictures show the benefit as the colour of a map, the y-axis of a scatter
-    /// plot, or the measure of a histogram or tornado chart.
+    /// Benefit of a design, for example lift. Pictures show the benefit as the colour of a map, or on the
+    /// y-axis of a scatter plot. Histograms and tornado charts also show the benefit.
     Benefit,
     /// Cost of a design, for example power. Scatter plots show the cost on the x-axis.
     Cost,

@@ -93,7 +93,7 @@ fn toml_text(value: &impl Serialize) -> String {
     toml::to_string(value).unwrap_or_default()
 }
 
-/// Entries of the metadata of a file that [`Provenance`] wrote, accessible by key.
+/// Entries of the metadata that [`Provenance`] wrote into a file. Each entry has a key.
 #[derive(Clone, Debug)]
 pub struct Recorded<'a>(BTreeMap<&'a str, &'a str>);
 

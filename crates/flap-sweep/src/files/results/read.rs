@@ -196,7 +196,7 @@ impl Reader {
 }
 
 /// Returns the checksums of the rows in `file` as CSV text. If the file cannot be decoded to its end, the
-/// function also returns an error. The checksums then cover only the rows that were decoded.
+/// function also returns an error. After this error, the checksums cover only the rows that were decoded.
 pub(crate) fn sum_up(file: File, format: Format) -> (TextDigest, io::Result<()>) {
     match format {
         #[cfg(feature = "parquet")]

@@ -177,8 +177,8 @@ impl Write for Frames {
 /// Returns the checksums of the plain or compressed text in `source`. For [`Format::Parquet`], `source` is
 /// the compressed text of the file `<results>.part`, not the Parquet file.
 ///
-/// If the text cannot be decompressed to its end, the function also returns an error. The checksums then
-/// cover only the text that was decompressed.
+/// If the text cannot be decompressed to its end, the function also returns an error. After this error,
+/// the checksums cover only the text that was decompressed.
 pub(crate) fn text_sum(source: impl Read, format: Format) -> (TextDigest, io::Result<()>) {
     let mut digest = TextDigest::new();
     let summed = decoded(source, format).and_then(|mut text| io::copy(&mut text, &mut digest));

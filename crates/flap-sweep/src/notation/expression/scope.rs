@@ -14,18 +14,21 @@ pub enum Kind {
 /// Meaning of a name in an expression.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Meaning<'a> {
-    /// A number. The variant contains the index of the number in the list of values.
+    /// A number. The variant contains the index of the number in the argument `values` of
+    /// [`Expression::value`](super::Expression::value).
     Number(usize),
-    /// A condition. The variant contains the index of the condition in the list of values. The value of a
-    /// condition has the form that [`Expression::value`](super::Expression::value) returns.
+    /// A condition. The variant contains the index of the condition in the argument `values` of
+    /// [`Expression::value`](super::Expression::value). A condition is 1 for true, 0 for false, and NaN
+    /// for unknown.
     Condition(usize),
-    /// A choice. The variant contains the index of the choice in the list of values, and the names of its
-    /// options. The value of a choice is the index of the chosen option.
+    /// A choice. The variant contains the index of the choice in `values` of
+    /// [`Expression::value`](super::Expression::value), and the names of the choice's options. The value
+    /// of a choice is the index of the chosen option.
     Choice(usize, &'a [&'a str]),
     /// Constant.
     Constant(f64),
-    /// A number that depends on a choice. The variant contains the index of the choice in the list of values,
-    /// and one number for each option.
+    /// A number that depends on a choice. The variant contains the index of the choice in `values` of
+    /// [`Expression::value`](super::Expression::value), and one number for each option.
     OfChoice(usize, Arc<[f64]>),
     /// A parameter whose value is not set. The first field of the variant describes the parameters from which
     /// the model computes the value. The second field lists the designs in which the value is not set, such

@@ -281,8 +281,8 @@ pub(super) struct Symbol {
     /// Power of ten in the conversion to SI units. The power is added to the exponent in the text of the
     /// number, so the conversion is exact.
     pub(super) shift: i32,
-    /// Factor in the conversion to SI units in addition to `shift`, such as 60 for minutes; 1 for decimal
-    /// units.
+    /// The conversion to SI units multiplies by this factor and by the power of ten `shift`. The factor
+    /// is 60 for minutes, and 1 for decimal units.
     pub(super) factor: f64,
     /// True if the unit allows prefixes.
     prefixes: bool,

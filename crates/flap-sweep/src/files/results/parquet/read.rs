@@ -117,7 +117,7 @@ fn refuse_compression(metadata: &ParquetMetaData) -> io::Result<()> {
 }
 
 /// Returns the checksums of the rows in a file as CSV text. If the file cannot be decoded to its end, the
-/// function also returns an error. The checksums then cover only the rows that were decoded.
+/// function also returns an error. After this error, the checksums cover only the rows that were decoded.
 pub(crate) fn sum_up(file: File) -> (TextDigest, io::Result<()>) {
     let mut lines = Lines::new(TextDigest::new());
     let summed = ParquetReader::new(file).and_then(|mut reader| {
