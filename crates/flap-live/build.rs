@@ -70,7 +70,8 @@ fn without_comments(source: &str) -> String {
     lines.fold(String::from("\n"), |kept, line| kept + line + "\n")
 }
 
-/// Returns the imports of a module, as names in braces and a path, and the rest of the module's text.
+/// Returns the imports of a module, and the text of the module without its imports. An import consists of the
+/// imported names in braces, and the path of the imported module.
 fn split(source: &str) -> (Vec<(&str, &str)>, String) {
     let (mut imports, mut body) = (Vec::new(), String::new());
     let mut rest = source;
@@ -85,7 +86,7 @@ fn split(source: &str) -> (Vec<(&str, &str)>, String) {
     (imports, body)
 }
 
-/// Returns the name that a line exports.
+/// Returns the name that a line of code exports.
 fn exported(line: &str) -> Option<&str> {
     let line = line.strip_prefix("export ")?;
     let kinds = ["const ", "class ", "function ", "async function "];

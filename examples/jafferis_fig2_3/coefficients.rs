@@ -31,7 +31,7 @@ impl Coefficients {
     }
 
     /// Returns the coefficient of the force that is perpendicular to the wing and rotates the wing about the
-    /// hinge. The coefficient is the bracket in Eq. (10).
+    /// hinge. The coefficient is the expression in brackets in Eq. (10).
     #[inline(always)]
     pub(crate) fn normal<R: Real>(&self, sin: R, cos: R) -> R {
         self.drag(cos * cos * 2.0 - 1.0) * cos + self.lift(sin * cos * 2.0) * sin

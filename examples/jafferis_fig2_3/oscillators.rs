@@ -87,7 +87,7 @@ impl Oscillator<2> for HeldWing {
     }
 }
 
-/// Oscillator (iii): the damping is the drag of a wing that turns on its hinge, as in Eqs. (1) and (2).
+/// Oscillator (iii): the damping is the drag of a wing that rotates about its hinge, as in Eqs. (1) and (2).
 ///
 /// ```text
 /// ẍ + x + d C_D(ψ) |ẋ|ẋ = F sin ωt
@@ -104,7 +104,7 @@ pub(crate) struct TurningWing {
     pub(crate) coupling: f64,
 }
 
-/// The ratios that follow from the parameters of Table I, as rounded numbers.
+/// The wing of Table I: the fields are rounded numbers that are computed from the parameters in the table.
 pub(crate) const TABLE_I: TurningWing =
     TurningWing { stiffness: 2.15, damping: 0.32, moment: 1.1, coupling: 0.66 };
 

@@ -14,8 +14,8 @@ const TOLERANCES: Tolerances = Tolerances { rtol: 1e-6, atol: 1e-8, max_steps: 1
 /// Tolerance for settled motions: the largest change of the state from one period to the next.
 const SETTLED: f64 = 1e-4;
 
-/// Largest number of simulated periods. After the largest number of periods, the simulation ends even if the
-/// motion has not settled.
+/// Largest number of simulated periods. After this number of periods, the simulation ends even if the motion
+/// has not settled.
 const PATIENCE: u32 = 400;
 
 /// Returns the frequencies at which the curves are computed, as multiples of the undamped resonance.

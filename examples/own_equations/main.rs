@@ -4,11 +4,11 @@
 //! cargo run --release -p flap-core --example own_equations -- POINTS.csv RTOL OUT.csv [SET]
 //! ```
 //!
-//! POINTS.csv has the columns `id,F0,f`: number, amplitude of the force (N) and frequency (Hz). Each point is run for
-//! 40 drive periods from rest. OUT.csv contains the amplitudes of the actuator's tip and of the pitch, and
-//! the mean lift, over the last five periods. The program prints the computing time of all runs to stdout, as
-//! JSON. SET is the name of a SIMD instruction set: avx512, avx2, neon or scalar. Without SET, the program
-//! uses the fastest instructions of the processor.
+//! POINTS.csv has the columns `id,F0,f`: the number of the point, the amplitude of the force (N) and the
+//! frequency (Hz). Each point is run for 40 drive periods from rest. OUT.csv contains the amplitudes of the
+//! actuator's tip and of the pitch, and the mean lift, over the last five periods. The program prints the
+//! computing time of all runs to stdout, as JSON. SET is the name of a SIMD instruction set: avx512, avx2,
+//! neon or scalar. Without SET, the program uses the fastest instructions of the processor.
 
 #![expect(clippy::print_stdout, reason = "an example prints what it finds")]
 

@@ -92,8 +92,8 @@ class Search:
         self.known: Any = None
 
     def row(self, x: Any) -> Any:
-        """Return two arrays for a design: the negative lift per watt and the distances to the limits, and the
-        derivatives of these values."""
+        """Return two arrays for a design. The first array contains the negative lift per watt and the distances to the
+        limits. The second array contains the derivatives of these values."""
         if self.at is None or not np.array_equal(self.at, x):
             table = rows(x[None, :], self.count, gradient=True)
             slopes = table.gradient[0] * np.array([BASE[name] for name in VARIABLES])

@@ -43,7 +43,7 @@ def best_phase(robot: flapwing.Vehicle) -> float:
 
 
 def drives(preset: str, phase: float) -> dict[str, dict[str, Any]]:
-    """Return a dictionary of drives: the name of a drive, and the drive parameters."""
+    """Return a dictionary with the parameters of each drive. The keys are the names of the drives."""
     volts = flapwing.params(preset)["drive_voltage_pp"].value
     assert isinstance(volts, float)
     split = {"drive_second_phase": float(np.radians(phase))}

@@ -116,7 +116,7 @@ impl Said {
         self.claim(shown.into(), if holds { Verdict::Met } else { Verdict::NotReproduced })
     }
 
-    /// Returns a claim that cannot be checked for the reason `why`.
+    /// Returns a claim that flap cannot check. The text `why` is the reason.
     pub(crate) fn cannot_be_checked(self, why: &'static str, shown: impl Into<String>) -> Claim {
         self.claim(shown.into(), Verdict::CannotBeChecked(why))
     }

@@ -18,8 +18,9 @@ pub(crate) struct Swing {
 }
 
 impl Bench {
-    /// Fits a damped sine to the first `cycles` periods after an impulse. The size of the impulse is the
-    /// stroke `amplitude` (rad) that the impulse causes in the first mode alone, without damping.
+    /// Fits a damped sine to the first `cycles` periods after an impulse. The size of the impulse is
+    /// `amplitude`, a stroke amplitude (rad). The impulse would cause this amplitude if the motion had only
+    /// the first mode and no damping.
     pub(crate) fn swing(&self, values: &[f64], amplitude: f64, cycles: u32) -> Swing {
         let modes = self.experiments().modes(values).expect("published parameters are possible");
         let request = ImpulseRequest {

@@ -47,8 +47,8 @@ fn bench() -> Bench {
     Bench::new("bimorph", 1e-4)
 }
 
-/// Returns the design of Table I with a scaled transmission: the ratio is 1 for T₁, 0.8 for T₂ and 0.6 for
-/// T₃.
+/// Returns the design of Table I with a scaled transmission. The scale factor `ratio` is 1 for T₁, 0.8 for T₂
+/// and 0.6 for T₃.
 fn transmission(ratio: f64) -> Params {
     Params::jafferis2016().with_transmission_scaled(ratio)
 }

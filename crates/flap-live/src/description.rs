@@ -223,7 +223,7 @@ impl Slider {
     }
 }
 
-/// Returns a typical size of values in this unit, for parameters that are zero or not set.
+/// Returns a typical size of values in the unit `unit`, for parameters that are zero or not set.
 fn usual(unit: &str) -> f64 {
     match unit {
         "rad" => PI / 4.0,

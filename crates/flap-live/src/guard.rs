@@ -11,7 +11,8 @@ const TOKEN_HEADER: &str = "x-flap-token";
 
 /// The check of every request, which accepts only requests of the page itself.
 ///
-/// The checks prevent requests by other pages of the browser and by other users of the machine.
+/// The checks reject requests from web pages that are not the live page, and requests from other users of the
+/// machine.
 pub(crate) struct Guard {
     token: String,
     hosts: [String; 2],

@@ -7,7 +7,8 @@
 //! - [`page`]: pages for a browser, each in one text with its style, code and data
 //! - `request`: requests of the live page
 //! - `rows`: rows of a sweep as JSON
-//! - `opened`: the design that was opened, and grid files for the contents of the page
+//! - `opened`: the design that was opened, and the grid files from which the contents of the page are
+//!   computed
 //! - `description`: parameters, measures and the first chart, as data for the page
 //! - `answer`: one file for each kind of request
 //! - `guard`: checks the token, the host and the origin of requests

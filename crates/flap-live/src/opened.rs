@@ -1,4 +1,4 @@
-//! The design that was opened, and grid files for the contents of the page.
+//! The design that was opened, and the grid files from which the contents of the page are computed.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -44,7 +44,7 @@ impl Opened {
     /// Opens the first design of a plan, with its formulas, conditions and settings.
     ///
     /// # Errors
-    /// The mistakes in the opened file after its sections about points are removed.
+    /// The mistakes that remain in the opened file if its sections about points are left out.
     pub(crate) fn new(plan: Plan, models: &[&'static dyn Simulator]) -> Result<Opened, Mistakes> {
         let head = head(&plan);
         let published = parsed(&plan, &head, models)?;
@@ -93,7 +93,8 @@ impl Opened {
     /// Returns a grid file for the design. `x` and `by` become axes of the grid.
     ///
     /// # Errors
-    /// [`Refused::Impossible`] if the plan would have too many rows, or a value cannot be removed.
+    /// [`Refused::Impossible`] if the plan would have too many rows, or if the design removes a value that
+    /// the preset or `[vehicle]` sets.
     pub(crate) fn grid(
         &self,
         design: &Design,
@@ -288,8 +289,8 @@ fn number(value: &Number) -> String {
     }
 }
 
-/// Converts a mistake in a grid file of the page into a refusal, which names the parameter in the line of the
-/// mistake.
+/// Converts a mistake in a grid file of the page into a refusal. If the line with the mistake sets a
+/// parameter, the refusal contains the name of this parameter.
 fn refused(mistake: &Diagnostic, parameters: &[Parameter]) -> Refused {
     let line = mistake.source.text.lines().nth(mistake.line().saturating_sub(1)).unwrap_or_default();
     let name = line.split('=').next().unwrap_or_default().trim();

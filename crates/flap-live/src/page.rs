@@ -18,7 +18,8 @@ pub(crate) fn live(heading: &str, data: &str) -> String {
     filled(include_str!("../web/live.html"), heading, include_str!("../web/live.css"), data, script)
 }
 
-/// Returns a page with all its parts inserted.
+/// Returns the text `html` after the heading, the style, the data and the script have replaced its
+/// placeholders.
 fn filled(html: &str, heading: &str, style: &str, data: &str, script: &str) -> String {
     let mut page = String::new();
     // The parts are inserted in one pass, so inserted text is not searched again.

@@ -29,7 +29,7 @@ pub(crate) struct XAxis {
     pub(crate) n: u32,
 }
 
-/// The parameter that distinguishes the lines: the page has one line for each value.
+/// The parameter that distinguishes the lines: the chart has one line for each value of this parameter.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct By {
@@ -46,7 +46,7 @@ pub(crate) struct FamilyRequest {
     pub(crate) by: Option<By>,
 }
 
-/// A request for the numbers of a design, and for the derivatives of the measure `gradient`.
+/// A request for the numbers of a design, and for the derivatives of the measure whose name is in `gradient`.
 #[derive(Debug, Deserialize)]
 pub(crate) struct PointRequest {
     #[serde(default)]

@@ -8,7 +8,7 @@ use flap_sweep::table::layout::{Cell, Layout};
 use serde::Serialize;
 use serde_json::Value;
 
-/// The rows of a plan. Numbers have all digits, and an unknown value is null.
+/// The rows of a plan. Numbers are not rounded to fewer digits, and an unknown value is null.
 #[derive(Serialize)]
 pub(crate) struct Rows {
     columns: Vec<String>,

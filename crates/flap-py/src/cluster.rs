@@ -11,9 +11,9 @@ use crate::watch::Watch;
 use crate::{error, sweep};
 
 /// Run the points from `begin` up to, but not including, `end`. Return the rows as bytes. The argument
-/// `chunks` of `sweep` is a function that must return the bytes that `part` returned for the next rows. If
-/// `first` is given, the points are a part of a larger grid, and `first` is the index of the first point in
-/// the larger grid.
+/// `chunks` of `sweep` is a function that must return such bytes: the bytes of the rows after the finished
+/// rows. If `first` is given, the points are a part of a larger grid, and `first` is the index of the first
+/// point in the larger grid.
 #[pyfunction]
 #[pyo3(signature = (grid, begin, end, /, *, first=None, threads=None))]
 pub(crate) fn part<'py>(

@@ -20,7 +20,7 @@ enum Data {
     Number(Vec<f64>),
     /// Flags: 1 for true, 0 for false, -1 for unknown.
     Flag(Vec<i8>),
-    /// Text: for each row the index of its word, and then the list of words.
+    /// Text: the first list contains one index for each row. An index denotes a word in the second list.
     Text(Vec<u32>, Vec<String>),
 }
 
@@ -34,7 +34,7 @@ impl Data {
         }
     }
 
-    /// Adds a cell, which must have the same kind as the column.
+    /// Adds a cell. The kind of the cell (number, whole number, flag or text) must be the kind of the column.
     fn push(&mut self, cell: Cell) {
         match (self, cell) {
             (Data::Whole(cells), Cell::Whole(cell)) => cells.push(cell),

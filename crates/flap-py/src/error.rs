@@ -99,7 +99,7 @@ pub(crate) fn unfinished(reason: &impl Display) -> PyErr {
     PyValueError::new_err(reason.to_string())
 }
 
-/// Returns the exception for a run of points that ended early.
+/// Returns the exception for a computation of rows that ended early.
 pub(crate) fn run(error: &RunError) -> PyErr {
     match error {
         RunError::Sink(_) => PyOSError::new_err(error.to_string()),

@@ -1,4 +1,4 @@
-//! Experiments on single points: chirps, impulses, and forces along a given motion.
+//! Simulated experiments, each with one design point: chirps, impulses, and forces along a given motion.
 
 use flap_core::drive::Repeat;
 use flap_core::parameter::Invalid;
@@ -64,7 +64,7 @@ pub(crate) fn chirp<'py>(
     motion::into_python(py, response.envelope, meaning, &meta)
 }
 
-/// Default duration after an impulse, in periods of the first mode.
+/// Default duration of the simulated motion after an impulse, in periods of the first mode.
 const CYCLES: f64 = 10.0;
 
 /// Simulate the motion after an impulse; see `flapwing.impulse`.

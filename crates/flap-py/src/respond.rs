@@ -51,7 +51,7 @@ impl Judged {
 
 /// Compute responses; see `flapwing.respond`.
 ///
-/// `curves` has the numbers of the designs whose responses are computed, in rising order. In the result,
+/// `curves` contains the indices of the designs whose responses are computed, in rising order. In the result,
 /// `designs` is the number of all designs.
 #[pyfunction]
 #[pyo3(signature = (design, parameter, /, *, start=None, stop=None, step=None, tolerance=None, unstable=false, return_states=false, threads=None, progress=None, keywords=None, curves=None))]

@@ -99,8 +99,9 @@ fn into_columns<'py>(
     Ok(dict)
 }
 
-/// Runs a job and returns its `summary`, `axes` and `meta`. The summary also counts the rows that earlier
-/// runs have written to the file. The summary is empty if the file already contained all rows.
+/// Computes the rows of a plan, writes the rows into a file, and returns `summary`, `axes` and `meta`. The
+/// summary also counts the rows that earlier runs have written to the file. The summary is empty if the file
+/// already contained all rows.
 fn into_file<'py>(
     py: Python<'py>,
     job: &Job<'_>,

@@ -11,7 +11,8 @@ use pyo3::prelude::*;
 /// not notice a delay of 50 ms.
 const INTERVAL: Duration = Duration::from_millis(50);
 
-/// Checks for signals and reports progress while work runs without the interpreter lock.
+/// Checks for signals of the operating system, such as Ctrl-C, and reports progress, while work runs without
+/// the interpreter lock.
 pub(crate) struct Watch {
     /// The user's progress function, whose arguments are the number of finished points and the number of all
     /// points.
@@ -25,8 +26,8 @@ impl Watch {
         Watch { progress, last: None, error: None }
     }
 
-    /// If [`INTERVAL`] has passed, checks for signals and reports progress. Returns true if an exception of a
-    /// signal handler or of the progress function has ended the work.
+    /// If [`INTERVAL`] has passed, checks for signals of the operating system and reports progress. Returns
+    /// true if an exception of a signal handler or of the progress function has ended the work.
     pub(crate) fn stops(&mut self, Progress { finished, points }: Progress) -> bool {
         if self.error.is_none() && self.last.is_none_or(|last| last.elapsed() >= INTERVAL) {
             self.look_now(finished, points);

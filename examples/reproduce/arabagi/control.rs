@@ -144,8 +144,8 @@ fn series(system: fn() -> System) -> Claim {
 }
 
 impl System {
-    /// Returns the response from half of the lowest to 0.75 of the highest drive frequency of this robot. The
-    /// response contains the largest lift.
+    /// Returns the response from half of the lowest to 0.75 of the highest drive frequency of this robot.
+    /// This frequency range contains the peak of the lift.
     fn response_from_low(self) -> Response {
         let [from, to, step] = self.range;
         System { range: [0.5 * from, 0.75 * to, step], ..self }.response()

@@ -3,8 +3,8 @@
 use super::{Type, bench, large, small};
 use crate::claim::{Claim, about, closely, said};
 
-/// Sizes of impulses (rad). The size of an impulse is the stroke amplitude that the impulse causes in the
-/// first mode alone, without damping.
+/// Sizes of impulses (rad). The size of an impulse is the stroke amplitude that the impulse would cause if
+/// the motion had only the first mode and no damping.
 const IMPULSES: [f64; 3] = [0.3, 0.5, 0.8];
 /// Index of the impulse after which the first stroke peak of the large actuator is nearest to 20 deg.
 const MIDDLE: usize = 1;

@@ -148,7 +148,7 @@ fn correlation(xs: &[f64], ys: &[f64]) -> f64 {
     sum(&|a, b| a * b) / (sum(&|a, _| a * a) * sum(&|_, b| b * b)).sqrt()
 }
 
-/// Returns the largest minus the smallest number of a list.
+/// Returns the difference between the largest and the smallest number of a list.
 fn range(values: &[f64]) -> f64 {
     values.iter().copied().fold(f64::MIN, f64::max) - values.iter().copied().fold(f64::MAX, f64::min)
 }

@@ -6,7 +6,7 @@ use flap_core::vehicle::{Mount, TORQUES, Vehicle};
 
 use crate::points::{Bench, Settled};
 
-/// Names of parameters with values that replace the values of the vehicle.
+/// Names of parameters, each with a value that replaces the vehicle's value of the parameter.
 pub(super) type Changes = Vec<(&'static str, f64)>;
 
 /// A vehicle, and the values of all its parameters.

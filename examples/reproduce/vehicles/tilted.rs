@@ -83,7 +83,7 @@ fn direct_drive(tilt: f64) -> Flier {
 }
 
 /// Returns the changes of lift (mN) and of the roll, pitch and yaw torque (µN·m) per volt. Each column of the
-/// matrix is one wing.
+/// matrix contains the changes for the voltage of one wing.
 fn effects(flier: &Flier) -> Matrix4<f64> {
     let volts = flier.value("drive_voltage_pp");
     let points: Vec<_> =

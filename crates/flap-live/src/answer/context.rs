@@ -1,5 +1,5 @@
-//! The design and the options from which an answer is computed, its stop flag, and the reasons why an answer
-//! fails.
+//! The design and the options from which an answer is computed, the flag that stops the computation, and the
+//! reasons why an answer fails.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 

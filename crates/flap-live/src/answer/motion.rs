@@ -11,7 +11,7 @@ use super::context::{AnswerContext, unfinished};
 use crate::description;
 use crate::request::{MOST_ROWS, MotionRequest, Refused};
 
-/// A motion, with one row for each sample.
+/// A motion, with one row for each instant at which the motion is sampled.
 #[derive(Serialize)]
 pub(crate) struct Motion {
     columns: Vec<String>,

@@ -44,7 +44,7 @@ pub enum StartError {
     /// The operating system provides no threads or no random numbers.
     #[error("cannot start the server: {0}")]
     System(String),
-    /// The opened file has mistakes after its sections about points are removed.
+    /// Without its sections about points, the opened file has mistakes.
     #[error("the design is not valid without its points")]
     Design(Mistakes),
     /// A formula uses a value of the device, but the designs of the page start from the preset.
@@ -68,7 +68,8 @@ pub struct Server {
     address: String,
     stop: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
-    /// The process that started the server. A forked child has a copy of the struct, but not the thread.
+    /// The process that started the server. If this process forks, the child process has a copy of this
+    /// struct, but not the thread of the server.
     process: u32,
 }
 
@@ -76,8 +77,9 @@ impl Server {
     /// Starts a server of the live page for the first design of `plan`. `models` contains the presets.
     ///
     /// # Errors
-    /// [`StartError`] if the port is in use, or if the system provides no threads. Also if the opened file
-    /// has mistakes after its sections about points are removed, or if its formulas use values of its device.
+    /// [`StartError`] if the port is in use, or if the system provides no threads. The server also does not
+    /// start if the formulas of the opened file use values of its device. Mistakes that the file has without
+    /// its sections about points are also an error.
     pub fn start(
         plan: Plan,
         models: &[&'static dyn Simulator],

@@ -74,7 +74,8 @@ async fn read(headers: &HeaderMap, body: Body) -> Result<Vec<u8>, Response> {
     }
 }
 
-/// Returns the answer to a request. Another thread computes the answer.
+/// Returns the answer to a request. The answer is computed on a separate thread, so that the server can
+/// meanwhile receive requests.
 async fn answer(state: Arc<ServerState>, compute: Answer, body: Vec<u8>) -> Response {
     // Dropped with this future if the page closes the connection, or if the server stops.
     let cancel = CancelOnDrop::default();

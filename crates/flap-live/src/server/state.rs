@@ -15,7 +15,8 @@ use crate::opened::Opened;
 use crate::page;
 use crate::request::Refused;
 
-/// Largest number of requests that are computed at the same time. Further requests wait, so that memory is bounded.
+/// Largest number of requests that are computed at the same time. All further requests wait, so that the
+/// server needs a limited amount of memory.
 const MOST_AT_ONCE: usize = 4;
 
 /// The state that all requests share.

@@ -86,7 +86,7 @@ fn of_preset(plan: &Plan, preset: &Preset) -> Vec<f64> {
 }
 
 /// Returns the first and the last value of an axis. For a list, the result is the smallest and the largest
-/// value. For a normal distribution, the result is the mean.
+/// value. For a normal distribution, the result is only the mean.
 fn ends(values: &Values) -> Vec<f64> {
     match values {
         Values::Sampled { distribution, .. } => match distribution {

@@ -48,8 +48,9 @@ pub fn of(plan: &Plan) -> Vec<Linked<'_>> {
     linked
 }
 
-/// Returns the base value of a parameter as text for a formula. The text is `preset.NAME` if the value is the
-/// preset's value, and otherwise the number. Returns `None` if the value is zero or not set.
+/// Returns a text that represents the constant value of a parameter in a formula. The text is `preset.NAME`
+/// if the value is the preset's value, and otherwise the number. Returns `None` if the value is zero or not
+/// set.
 fn reference(plan: &Plan, preset: Option<&Preset>, index: usize) -> Option<String> {
     let value = plan.base()[index].in_point();
     if value == 0.0 || value.is_nan() {

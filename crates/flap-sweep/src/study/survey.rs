@@ -39,8 +39,8 @@ pub fn exclusions(plan: &Plan, most: u64) -> Exclusions {
 /// Returns an element of an endless sequence of point indices that are evenly spread over a plan. `number` is
 /// the position in the sequence, and `points` is the number of points of the plan.
 ///
-/// Each index is the fractional part of a multiple of the golden ratio, times `points`. Multiples of the
-/// golden ratio leave no large gaps and have no common period with any axis.
+/// Each index is the fractional part of a multiple of the golden ratio, times `points`. The fractional parts
+/// leave no large gaps, and their sequence has no common period with the values of any axis.
 pub fn spread(number: u64, points: u64) -> u64 {
     const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
     let share = number.wrapping_mul(GOLDEN);

@@ -36,8 +36,8 @@ const CONSTANT: f64 = 1e-6;
 /// component is poor.
 const POOR: f64 = 0.99;
 
-/// If a Floquet multiplier is above this value, the motion is near a steep part of the response, and flap
-/// prints a warning.
+/// If a Floquet multiplier is above this value, flap warns that a small change of an input may change the
+/// motion much.
 const STEEP: f64 = 0.7;
 
 /// Advice for the user if the rows with periodic motions are too few, or do not determine the coefficients.
@@ -137,7 +137,7 @@ impl WrenchMap {
     pub const SAMPLES: u32 = 400;
 
     /// Computes the wrench map for the vehicle of `plan`. The `inputs` vary in their ranges, and all
-    /// parameters that are not inputs have the `values` of a point.
+    /// parameters that are not inputs have their value in `values`.
     ///
     /// The inputs have the values of a scrambled Sobol' sequence with `samples` points. The map does not
     /// depend on the number of threads. During the computation, `stops` is called several times a second. If

@@ -116,9 +116,9 @@ impl Input {
     /// Returns two points, from which derivatives are computed: the points before and after a small change of
     /// the input.
     ///
-    /// If the parameter is zero and cannot be negative, the finite difference is one-sided, except at rest.
-    /// At rest, mean forces grow with the square of the change, and only a central difference gives the
-    /// derivative, which is zero.
+    /// If the parameter is zero and cannot be negative, the finite difference is one-sided, except if the
+    /// wings rest. For resting wings, mean forces grow with the square of the change. A central difference
+    /// then gives the derivative, which is zero, and a one-sided difference does not.
     pub(super) fn change(
         &self,
         vehicle: &Vehicle,
@@ -380,8 +380,8 @@ impl VehicleRun<'_> {
     /// Computes the derivatives of the six components of force and torque with respect to an input by central
     /// differences.
     ///
-    /// In the four-bar model, exact derivatives do not exist at some points, because the lift of each strip
-    /// of the wing jumps.
+    /// In the four-bar model, the lift of each strip of the wing jumps at an attack angle of 90°. Exact
+    /// derivatives therefore do not exist at some points.
     fn differences(
         &self,
         values: &[f64],

@@ -19,7 +19,8 @@ use nalgebra::{DMatrix, DVector, Matrix3, Quaternion, UnitQuaternion, Vector3, V
 use super::control::{COMPONENTS, ControlError, Input, VehicleRun, own_values};
 use super::hover::{HoverError, HoverModel, STATES, WRENCH_TO_SI, body_at_rest, inertia, inverse_mass};
 
-/// Number of states that a disturbance and the feedback use: three velocities, three rates and three angles.
+/// Number of states that a disturbance can change and that the feedback receives: three velocities, three
+/// rates and three angles.
 pub const FED_BACK: usize = 9;
 
 /// Largest number of wing beats of a simulated flight.
@@ -279,8 +280,8 @@ impl<'a> Coupled<'a> {
     /// Returns the contribution of the body's vibration to the mean velocities, rates and angles over the
     /// first beat.
     ///
-    /// The result is the mean over a beat that begins at rest, minus half of the value at the end of the
-    /// beat. For a linear change that begins at rest, the mean is half of the end value.
+    /// The body begins at rest. The result is the mean over the beat, minus half of the value at the end of
+    /// the beat. Without vibration, the change is linear in time, and the mean is half of the end value.
     fn vibration(&mut self) -> Result<[f64; FED_BACK], String> {
         let period = self.period();
         self.advance(0.0, period)?;
@@ -451,7 +452,8 @@ impl Integrator<'_> {
 /// Number of states of the linear model.
 const N: usize = STATES.len();
 
-/// The flight by the linear model about hover, in which force and torque are means over a wing beat.
+/// A flight that is simulated with the linear model about hover. Force and torque in this model are means
+/// over a wing beat.
 struct Averaged {
     hover: HoverModel,
     /// Values of the inputs at the operating point (SI).

@@ -67,7 +67,8 @@ pub(super) fn gradient(
     Ok(found)
 }
 
-/// Returns a derivative as a number. If the change has no effect on the wings, the derivative is zero.
+/// Returns a derivative as a number. If the changed input or parameter has no effect on the wings, the
+/// derivative is zero.
 fn effect(slope: Result<f64, NoSlope>) -> Result<f64, NoSlope> {
     if slope == Err(NoSlope::Zero) { Ok(0.0) } else { slope }
 }

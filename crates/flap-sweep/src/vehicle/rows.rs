@@ -32,9 +32,9 @@ pub(crate) const HOVER_RESIDUAL: &str = "hover_residual";
 /// Computes rows of a vehicle: rows at hover, rows with the damping matrix, or rows at hover with the damping
 /// matrix.
 ///
-/// A row begins with the measures of the vehicle. At hover, the row continues with the growth rate and the
-/// period of the fastest-growing mode. The next columns are the largest unbalanced force or torque, and the
-/// values of the inputs. The entries of the damping matrix come last.
+/// A row begins with the measures of the vehicle. If the row is computed at hover, the next columns are the
+/// growth rate and the period of the fastest-growing mode. Then follow the largest unbalanced force or
+/// torque, and the values of the inputs. The entries of the damping matrix come last.
 #[derive(Clone)]
 pub struct BodyRows {
     vehicle: Arc<Vehicle>,
@@ -105,7 +105,7 @@ impl BodyRows {
     }
 
     /// Returns a copy of `values` in which the inputs have their values at hover. The measures of a row
-    /// contain the values at hover.
+    /// contain these values of the inputs.
     pub(crate) fn at_hover(&self, values: &[f64], measures: &[f64]) -> Vec<f64> {
         let mut values = values.to_vec();
         let found = measures.iter().skip(self.vehicle.columns().len() + OF_HOVER);

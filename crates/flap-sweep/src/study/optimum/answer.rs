@@ -131,8 +131,8 @@ pub struct Optimum {
     pub missing: Vec<NoSlope>,
     /// True if the search for the best design ended with a pattern search, which needs no derivatives.
     pub is_polished: bool,
-    /// The largest gain that the derivatives still predict if one parameter changes by the width of its axis,
-    /// as a fraction of the goal.
+    /// The largest relative gain of the goal if one parameter changes by the width of its axis. The gain is
+    /// predicted from the derivatives at the best design.
     pub left_over: f64,
 }
 

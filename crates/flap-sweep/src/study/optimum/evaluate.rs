@@ -12,11 +12,11 @@ use crate::derivative::reasons_of;
 use crate::plan::Plan;
 use crate::run::{Outcome, RunError, RunOptions, alone};
 
-/// Distance between the coordinates of two rows whose difference replaces a missing derivative.
+/// Step of a coordinate for the finite differences that replace missing derivatives.
 const STEP: f64 = 2e-3;
 
-/// For designs at resonance or at hover, this distance replaces [`STEP`]. The distance is larger than
-/// [`STEP`], because the computed resonance and the computed hover have numerical errors.
+/// For designs at resonance or at hover, this step replaces [`STEP`]. This step is larger than [`STEP`],
+/// because the computed resonance and the computed hover have numerical errors.
 const STEP_WITH_SEARCH: f64 = 2e-2;
 
 /// A point that the optimisation has computed.
@@ -239,8 +239,9 @@ impl<'p> Evaluator<'p> {
         (slopes, lacks_slopes)
     }
 
-    /// Computes one-sided differences along one coordinate, between the point and a neighbour within the
-    /// bounds. Returns `None` if no neighbour has a periodic motion.
+    /// Computes finite differences of the goal and of the sides of all limits, between the point and a
+    /// neighbour along one coordinate. The neighbour must be within the bounds. Returns `None` if no
+    /// neighbour has a periodic motion.
     fn differences(&self, trial: &Trial, number: usize) -> Option<Vec<f64>> {
         let quantities = |trial: &Trial| -> Vec<f64> {
             std::iter::once(trial.goal).chain(trial.sides.iter().flatten().copied()).collect()

@@ -52,10 +52,11 @@ pub enum FrontError {
 /// front has at most `count` points, and values of `count` below 2 count as 2.
 ///
 /// Each point has the best value of the first goal for a limit on the second goal. The limits are evenly
-/// spaced between the ends of the front. The search for a point starts from the previous point and from the
-/// last point of the front. A point is left out if a different point is at least as good in both goals and
-/// better in one goal. `stops` is called with the number of finished points of the front and the number of
-/// all points. If `stops` returns true, the computation ends without a result.
+/// spaced between the ends of the front. For each point, one search starts from the previous point of the
+/// front, and one search starts from the last point of the front. A point is left out if a different point is
+/// at least as good in both goals and better in one goal. `stops` is called with two arguments: the number of
+/// finished points and the number of all points of the front. If `stops` returns true, the computation ends
+/// without a result.
 ///
 /// Returns `None` if no point has a periodic motion, or if `stops` returned true.
 ///

@@ -32,9 +32,9 @@ impl Limit {
         Some(limits.collect())
     }
 
-    /// True if the limit is an upper limit: the side that must be larger limits the side that must be
-    /// smaller. If only one side of the comparison is constant, the constant side is the limit. If both sides
-    /// or no side is constant, the side on the right is the limit.
+    /// True for an upper limit such as `stroke < 90`, and false for a lower limit such as `90 < stroke`. If
+    /// only one side of the comparison is constant, the constant side is the limit. If both sides or no side
+    /// is constant, the side on the right is the limit.
     pub(super) fn is_upper(&self) -> bool {
         let is_constant = |side: &Expression| side.reads().next().is_none();
         match [&self.comparison.more, &self.comparison.less].map(is_constant) {

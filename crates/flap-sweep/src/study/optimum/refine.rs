@@ -144,8 +144,7 @@ fn descend(points: &Evaluator<'_>, begin: &Rc<Trial>, clearance: f64) -> (Rc<Tri
 }
 
 /// Starts at a point that exceeds some limits, and searches the point that exceeds the limits least. The
-/// search relaxes all limits by the same relative amount, and minimises this amount so that a point
-/// satisfies the relaxed limits.
+/// search relaxes all limits by one relative amount, and seeks the point that needs the smallest relaxation.
 fn approach(points: &Evaluator<'_>, begin: &Rc<Trial>) -> Rc<Trial> {
     let problem = points.problem;
     let dimensions = begin.coordinates.len();

@@ -16,7 +16,8 @@ use crate::resonance::{DRIVE_FREQUENCY, RESONANCE_HZ};
 use crate::run::{Run, RunError, RunOptions};
 
 /// Tolerances with which two end points of searches count as one optimum. Each pair of tolerances contains
-/// the largest relative difference of the goal and the largest difference of the coordinates.
+/// the largest relative difference of the goal and the largest difference of a coordinate between the two end
+/// points.
 ///
 /// Two end points count as one optimum if the differences of goal and coordinates are within both tolerances
 /// of a pair. For a smaller difference of the goal, a larger difference of the coordinates is allowed.

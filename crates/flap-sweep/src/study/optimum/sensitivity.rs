@@ -26,14 +26,14 @@ pub(super) const CONVERGED: f64 = 0.02;
 #[derive(Clone, Copy)]
 enum Restriction {
     Limit(usize),
-    /// The index of a continuous parameter. The flag is true for the largest value of the parameter, and
-    /// false for the smallest value.
+    /// An end of an axis: the index of the continuous parameter, and a flag. The flag is true for the end
+    /// with the largest value, and false for the end with the smallest value.
     Bound(usize, bool),
 }
 
 /// Returns the restrictions of an optimum with their Lagrange multipliers. The second result is the largest
-/// gain that the derivatives still predict if one parameter changes by the width of its axis. The predicted
-/// gain is a fraction of the goal.
+/// relative gain of the goal if one parameter changes by the width of its axis. The gain is predicted from
+/// the derivatives at the optimum.
 pub(super) fn active(problem: &Problem, at: &Trial, is_polished: bool) -> (Vec<Active>, f64) {
     let Some(goal) = at.slopes.first() else { return (Vec::new(), f64::NAN) };
     let near = if is_polished { NEAR_PATTERN } else { NEAR };

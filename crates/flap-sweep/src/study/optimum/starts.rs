@@ -57,7 +57,7 @@ pub(super) fn computed(
 }
 
 /// Returns the best starts, at most `most`. The list begins with the best start for each combination of
-/// choices. Each later start is far from all starts before it that have equal values of the choices.
+/// choices. Each later start is far from all earlier starts that have the values of its choices.
 pub(super) fn best(problem: &Problem, mut starts: Vec<Trial>, most: usize) -> Vec<Trial> {
     // A stable sort: of equal starts the first one comes first.
     starts.sort_by(|one, other| one.order(problem, other));

@@ -10,7 +10,7 @@ use super::curve::{Comparison, Curve, Step, compare};
 use super::run::Responses;
 use crate::plan::{Plan, sample};
 
-/// Number of times in one period at which the states of an orbit are computed, to find their smallest and
+/// Number of instants in one period at which the states of an orbit are computed, to find their smallest and
 /// largest values.
 const SAMPLES: u32 = 64;
 
@@ -48,13 +48,13 @@ impl Basin {
 }
 
 impl Responses<'_> {
-    /// Computes the basins of attraction at each value of `curve` at which the two branches have different
-    /// stable orbits. The values are in ascending order.
+    /// Computes the basins of attraction at each parameter value of `curve` at which the two branches have
+    /// different stable orbits. The parameter values in the result are in ascending order.
     ///
-    /// The initial states are uniformly distributed. Each initial state component lies between the smallest
-    /// and the largest value of this component on both orbits. Each motion is integrated period by period
-    /// until the motion settles. Newton shooting is not used, because it may jump from one basin to the other
-    /// basin.
+    /// The initial states are uniformly distributed. Each component of an initial state lies between the
+    /// smallest and the largest value that this component has among the states of the two orbits. Each motion
+    /// is integrated period by period until the motion settles. Newton shooting is not used, because it may
+    /// jump from one basin to the other basin.
     ///
     /// # Errors
     /// [`Unfinished`] if the model cannot compute motions over time, if the states of an orbit cannot be

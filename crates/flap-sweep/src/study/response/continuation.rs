@@ -15,9 +15,9 @@ use super::curve::{Comparison, Curve, Step};
 use super::space::OrbitSpace;
 use crate::plan::{Along, Plan};
 
-/// Initial, shortest and longest distance between successive orbits of the continuation. The unit of the
-/// parameter's change is the width of the band. The unit of a state component's change is the largest
-/// magnitude of the component.
+/// Initial, shortest and longest distance between successive orbits of the continuation. For this distance,
+/// changes of the parameter are divided by the width of the band. Changes of a state component are divided by
+/// the largest magnitude of the component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.03];
 
 /// Largest number of steps of the continuation in one band.
@@ -28,8 +28,7 @@ const MOST: usize = 2000;
 const SLOW: usize = 8;
 const QUICK: usize = 3;
 
-/// Change of the parameter with which the derivative with respect to the parameter is computed, relative to
-/// the width of the band.
+/// Change of the parameter for finite differences, as a fraction of the width of the band.
 const CHANGE: f64 = 1e-3;
 
 /// The tolerances of the integration are the tolerances of the plan times this factor.

@@ -144,8 +144,8 @@ pub(super) fn compare(up: &Row, down: &Row, sizes: &[f64]) -> Comparison {
     }
 }
 
-/// Returns true if the response is steep between two motions. `sizes` contains the size of each state
-/// component.
+/// Returns true if the response is steep between two motions: a state component changes by more than the
+/// fraction [`STEEP`] of its size. `sizes` contains the size of each state component.
 pub(super) fn is_steep(low: &Row, high: &Row, sizes: &[f64]) -> bool {
     differ(low, high, sizes, STEEP)
 }

@@ -141,7 +141,8 @@ pub enum EdgeMark {
 /// The reason why an edge ends.
 #[derive(Clone, Debug, PartialEq)]
 pub enum EdgeEnd {
-    /// The edge leaves the range of the parameter with this index.
+    /// The edge leaves the range of the parameter with this index: 0 for the parameter of the response, 1 for
+    /// the second parameter.
     Range(usize),
     /// The edge is a closed curve.
     Closed,

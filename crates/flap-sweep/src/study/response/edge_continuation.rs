@@ -34,9 +34,9 @@ use super::edge::{CRITICAL, Edge, EdgeEnd, EdgeKind, EdgeMark, EdgePoint, EdgeRa
 use super::run::Responses;
 use super::space::OrbitSpace;
 
-/// Initial, shortest and longest distance between successive points of an edge. The unit of a parameter's
-/// change is about the width of the parameter's range. The unit of a state component's change is the largest
-/// magnitude of the component.
+/// Initial, shortest and longest distance between successive points of an edge. For this distance, changes of
+/// a parameter are divided by about the width of the parameter's range. Changes of a state component are
+/// divided by the largest magnitude of the component.
 const STEPS: [f64; 3] = [0.01, 1e-5, 0.05];
 
 /// If the cosine of the angle between the tangents at successive points is smaller than this value, the step
@@ -55,8 +55,8 @@ const FIRST: usize = 20;
 /// Largest number of iterations of regula falsi for the position of a cusp or a turn.
 const MARKED: usize = 50;
 
-/// Change of a state component or a parameter with which derivatives are computed as differences. The unit of
-/// a change is the unit in [`STEPS`].
+/// Change of a state component or a parameter for finite differences. The change is divided as described at
+/// [`STEPS`].
 const CHANGE: f64 = 1e-3;
 
 /// The tolerances of the integration are the tolerances of the plan times this factor.
@@ -70,8 +70,8 @@ const FINER: f64 = 1e-4;
 /// the plan.
 const CONVERGED: f64 = 0.1;
 
-/// A point lies on an edge if its distance from the chord between two successive points is at most this
-/// fraction of the chord's length.
+/// A point counts as a point of an edge if it is near the straight line between two successive points of the
+/// edge. The largest allowed distance from the line is this fraction of the line's length.
 const ON_CHORD: f64 = 0.2;
 
 impl Responses<'_> {
@@ -196,8 +196,8 @@ impl Plane<'_> {
         Ok(jacobian)
     }
 
-    /// Adds the derivatives and the tangent to a point that solves the equations. The tangent points towards
-    /// the same side as `direction`.
+    /// Adds the derivatives and the tangent to a point that solves the equations. The scalar product of the
+    /// tangent and `direction` is positive.
     fn solution(
         &self,
         place: DVector<f64>,
@@ -401,7 +401,7 @@ impl Plane<'_> {
     }
 
     /// Returns points of the edge at equal steps of the second parameter, counted from the smallest value of
-    /// its range. The list also contains the first and the last point, and all special points.
+    /// its range. The list also contains the first point, the last point, and all cusps and turns.
     fn at_steps(
         &self,
         points: &[(Solution, Option<EdgeMark>)],

@@ -44,7 +44,8 @@ impl<'a> Follow<'a> {
         Follow { plan, along, design, up: Vec::new(), down: Vec::new() }
     }
 
-    /// Returns the computation of the response. The computation pauses while the lanes compute its points.
+    /// Returns a computation of the response that can pause. The computation pauses while the lanes compute
+    /// the rows of its next points.
     pub(super) fn sequence(self) -> Sequence<'a, Curve> {
         Sequence::new(|exchange| async move { self.run(&exchange).await })
     }

@@ -12,8 +12,8 @@ use crate::plan::{Admission, Along, Plan};
 use crate::resonance::sequence::{self, Sequence, SequenceSource};
 use crate::run::{Outcome, RowWriter, Run, RunError, RunOptions, Worker};
 
-/// Limits of the window, divided by the number of threads. The window is the largest number of responses that
-/// may be computed beyond the last returned response.
+/// Lower and upper limit of the window per thread. The window is the largest number of responses that may be
+/// computed while an earlier response is not finished.
 ///
 /// With a window below the lower limit, some lanes would be empty. With a window above the upper limit, the
 /// memory could be too small.
@@ -44,7 +44,8 @@ impl<'a> Responses<'a> {
         })
     }
 
-    /// Returns the largest number of responses that may be computed ahead of the last written response.
+    /// Returns the window: the largest number of responses that may be computed while an earlier response is
+    /// not finished.
     fn window(self, options: &RunOptions) -> usize {
         let [least, most] = AHEAD.map(|curves| curves * options.threads.get());
         (options.window / (2 * self.along.values.len())).clamp(least, most)
