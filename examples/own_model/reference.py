@@ -4,10 +4,11 @@ code.
     python examples/own_model/reference.py > tests/data/motor_wing.csv
 
 Each point is described by the columns voltage (V), frequency (Hz), wing length (m) and spring stiffness (N m/rad). If
-the stiffness is computed from the frequency, the cell of the stiffness is empty. The measures are computed over the
-last of 100 drive periods. The first two measures are the largest flap angle (deg) and the mean lift (mN). The next two
-measures are the mean and the mean magnitude of the electrical power (mW). The last two measures are the mean power that
-the air absorbs (mW) and the root mean square of the current (mA).
+the stiffness is computed from the frequency, the cell of the stiffness is empty. Each point is
+simulated for 100 drive periods, and the measures are computed over the last period. The first two measures are the
+largest flap angle (deg) and the mean lift (mN). The next two measures are the mean and the mean magnitude of the
+electrical power (mW). The last two measures are the mean power that the air absorbs (mW) and the root mean square of
+the current (mA).
 """
 
 import csv

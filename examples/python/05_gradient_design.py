@@ -5,7 +5,7 @@ The script maximises the lift per watt of the bimorph of Jafferis et al. over pa
 and actuator. The strain of the plates, the stroke and the pitch have limits, and two wings must carry the vehicle.
 SLSQP, an optimiser of SciPy, uses the derivatives of the measures. Differential evolution (pymoo) uses only the values
 of the measures. For each optimiser, the script counts the computed designs, the evaluations of the right-hand side, and
-the seconds.
+the seconds of computing time.
 
     python 05_gradient_design.py
     python 05_gradient_design.py --starts 8 --generations 120

@@ -46,7 +46,7 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// Returns the point, or an error if the point cannot be run.
+    /// Returns the point, or an error if the point cannot be simulated.
     pub(crate) fn possible(self) -> PyResult<Chosen> {
         match &self.invalid {
             Some(reason) => Err(PyValueError::new_err(reason.clone())),
@@ -54,15 +54,15 @@ impl Chosen {
         }
     }
 
-    /// Returns the point whose motion is requested, or an error if the point cannot be run or is a vehicle.
-    /// If the drive frequency is the resonance, searches for the resonance.
+    /// Returns the point whose motion is requested, or an error if the point cannot be simulated or is a
+    /// vehicle. If the drive frequency is the resonance, searches for the resonance.
     pub(crate) fn for_motion(self, py: Python<'_>) -> PyResult<Chosen> {
         design::check_one_wing(&self.plan)?;
         self.at_frequency(py)
     }
 
-    /// Returns the point, or an error if the point cannot be run. If the drive frequency is the resonance, searches for
-    /// the resonance.
+    /// Returns the point, or an error if the point cannot be simulated. If the drive frequency is the
+    /// resonance, searches for the resonance.
     pub(crate) fn at_frequency(self, py: Python<'_>) -> PyResult<Chosen> {
         let mut chosen = self.possible()?;
         let Some(resonance) = chosen.plan.resonance() else { return Ok(chosen) };
@@ -81,7 +81,7 @@ impl Chosen {
         Ok(chosen)
     }
 
-    /// Returns the point, or an error if the point cannot be run. If the grid requires hover (`trim`),
+    /// Returns the point, or an error if the point cannot be simulated. If the grid requires hover (`trim`),
     /// searches for the inputs at hover and sets these inputs.
     pub(crate) fn at_hover(self, py: Python<'_>) -> PyResult<Chosen> {
         let mut chosen = self.possible()?;

@@ -28,7 +28,7 @@ const CHECKPOINT: Duration = Duration::from_secs(1);
 /// Run a grid; see `flapwing.sweep`.
 ///
 /// `chunks` is a function that returns rows that other processes have computed. The argument of `chunks` is
-/// the number of finished points, and the result is the next chunk of rows as bytes.
+/// the number of finished points, and the result is the bytes of the rows that follow the finished points.
 #[pyfunction]
 #[pyo3(signature = (grid, /, *, out=None, restart=false, threads=None, progress=None, chunks=None))]
 pub(crate) fn sweep<'py>(
@@ -143,7 +143,7 @@ fn into_file<'py>(
 }
 
 /// Writes the rows of all points to `sink`. If `chunks` is given, other processes compute the rows, except
-/// the rows of a refinement.
+/// the rows of points that `[refine]` adds.
 fn work(
     plan: &Plan,
     options: &RunOptions,

@@ -100,8 +100,8 @@ fn rolls(pair: &Flier, difference: f64) -> Vec<Settled> {
     pair.settle(&points.collect::<Vec<_>>())
 }
 
-/// Returns a text with the roll torques at smaller voltage differences, and with the lift of the wing that
-/// has the smaller drive voltage.
+/// Returns a text with the roll torques at fractions of the voltage difference. The text also contains the
+/// lift of the wing that has the smaller drive voltage.
 fn with_less(points: &[Settled], difference: f64) -> String {
     let parts = PARTS.iter().zip(&points[1..]);
     let torques = parts

@@ -24,7 +24,7 @@ impl AnswerContext<'_> {
     }
 }
 
-/// Converts the reason why a run returned no rows into the reason why an answer fails.
+/// Converts the error of a computation of rows into the reason why an answer fails.
 impl From<RunError> for Refused {
     fn from(error: RunError) -> Refused {
         Refused::Fault(error.to_string())

@@ -135,7 +135,7 @@ impl<'p> Evaluator<'p> {
         self.missing.borrow().iter().copied().collect()
     }
 
-    /// Returns the last error of the runner, if the rows of a point could not be computed.
+    /// If the rows of a point could not be computed, returns the last error.
     pub(super) fn failure(&self) -> Option<RunError> {
         self.failure.take()
     }

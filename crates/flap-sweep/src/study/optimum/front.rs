@@ -43,7 +43,7 @@ pub enum FrontError {
     /// description of the mistake.
     #[error("{1}")]
     Problem(usize, ProblemError),
-    /// The runner could not compute rows.
+    /// The rows could not be computed.
     #[error(transparent)]
     Run(#[from] RunError),
 }

@@ -19,14 +19,15 @@ use crate::run::{Run, RunError, RunOptions};
 /// the largest relative difference of the goal and the largest difference of a coordinate between the two end
 /// points.
 ///
-/// Two end points count as one optimum if the differences of goal and coordinates are within both tolerances
-/// of a pair. For a smaller difference of the goal, a larger difference of the coordinates is allowed.
+/// Two end points count as one optimum if, for one of the pairs, the differences of goal and coordinates are
+/// within both tolerances. For a smaller difference of the goal, a larger difference of the coordinates is
+/// allowed.
 const SAME_OPTIMUM: [[f64; 2]; 2] = [[1e-3, 0.02], [2e-4, 0.2]];
 
 /// Settings of an optimisation.
 #[derive(Clone, Copy, Debug)]
 pub struct Settings {
-    /// Options of the runner, for example the number of threads and the instruction set.
+    /// Options for the computation of rows, for example the number of threads and the instruction set.
     pub run: RunOptions,
     /// Largest number of searches. Each search starts from a different grid point.
     pub starts: NonZeroUsize,

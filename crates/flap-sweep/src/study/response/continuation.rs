@@ -1,7 +1,8 @@
 //! Computes the unstable orbits in a bistable band, which connect the two stable branches.
 //!
-//! At one end of a bistable band, the upward branch of stable orbits turns back and becomes unstable. At the
-//! opposite end of the band, the unstable branch turns again and continues as the downward branch.
+//! At the upper end of a bistable band, the upward branch of stable orbits turns back towards smaller
+//! parameter values and becomes unstable. At the lower end of the band, the unstable branch turns again and
+//! continues as the downward branch.
 //!
 //! The unstable orbits are computed by pseudo-arclength continuation (Keller, 1977). The unknowns are the
 //! state at the beginning of the period, and the parameter of the response. Each orbit is sought on a plane
