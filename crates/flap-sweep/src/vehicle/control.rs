@@ -117,8 +117,8 @@ impl Input {
     /// the input.
     ///
     /// If the parameter is zero and cannot be negative, the finite difference is one-sided, except if the
-    /// wings rest. For resting wings, mean forces grow with the square of the change. A central difference
-    /// then gives the derivative, which is zero, and a one-sided difference does not.
+    /// wings rest. For resting wings, mean forces grow with the square of the input's change. A central
+    /// difference then gives the derivative, which is zero, and a one-sided difference does not.
     pub(super) fn change(
         &self,
         vehicle: &Vehicle,

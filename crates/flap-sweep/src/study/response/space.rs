@@ -17,7 +17,8 @@ pub(super) struct OrbitSpace<'a, const P: usize> {
     pub(super) design: &'a Point,
     /// Indices of the parameters in the model's parameter table.
     pub(super) parameters: [usize; P],
-    /// Parameter changes that count as a distance of 1, in SI units.
+    /// One value for each parameter, in SI units. If the parameter changes by this value, the point in the
+    /// space moves by a distance of 1.
     pub(super) units: [f64; P],
     /// Size of each state component. If a component is always zero, its size is 1.
     pub(super) sizes: Vec<f64>,
