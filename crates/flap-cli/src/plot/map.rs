@@ -22,7 +22,8 @@ use crate::failure::Failure;
 /// Largest number of cells in a picture, which is about the number of pixels of a usual picture.
 const MOST_CELLS: usize = 500_000;
 
-/// A coloured cell: the positions of its sides, and its value, in the units of the picture.
+/// A coloured cell: the positions of its sides in the units of the axes, and its value in the unit of the
+/// colour bar.
 struct Cell {
     x: [f64; 2],
     y: [f64; 2],

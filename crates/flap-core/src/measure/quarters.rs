@@ -17,8 +17,9 @@ use crate::ode::step::Attempt;
 
 /// Phase at which the first quarter of the drive period begins (rad).
 ///
-/// Extrema of a signal are unlikely at the boundaries of the quarters. Two extrema that are half a period
-/// apart therefore lie in opposite quarters, even if numerical errors shift the extrema.
+/// With this phase, a signal rarely has an extremum at the boundary between two quarters of the drive period.
+/// Two extrema that are half a period apart therefore lie in opposite quarters, even if numerical errors
+/// shift the extrema.
 const BEGIN: f64 = -0.37;
 
 /// Smallest and largest value of a signal in a quarter of the drive period.

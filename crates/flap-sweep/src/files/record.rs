@@ -244,8 +244,8 @@ fn not_a_number(name: &str, line: u64, heading: &str, cell: &str) -> RecordError
     RecordError::Wrong(format!("{name}, line {line}, column {heading}: `{cell}` is not a number"))
 }
 
-/// Smallest accepted time between two measured values, relative to the duration of the record. For a record
-/// that is shorter than 1 s, the smallest accepted time is 1e-12 s.
+/// Smallest accepted time between two measured values, relative to the duration of the record. If a record
+/// is shorter than 1 s, two measured values must be at least 1e-12 s apart.
 const LEAST_STEP: f64 = 1e-12;
 
 /// If the spline leaves the range of the measured values by more than this fraction of the range, flap

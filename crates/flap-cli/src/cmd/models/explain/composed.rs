@@ -74,7 +74,8 @@ pub(super) fn of_vehicles(model: &'static dyn Simulator, entries: &mut Vec<Entry
     }
 }
 
-/// Adds entries for the parameter and the column `name` of a vehicle whose wing is called `wing`.
+/// If a vehicle with a wing called `wing` has a parameter or a column called `name`, adds its entry to
+/// `entries`.
 fn of_wing(model: &'static dyn Simulator, wing: &str, name: &str, entries: &mut Vec<Entry>) {
     let Some(vehicle) = vehicle(model, wing) else { return };
     let rest = format!(" with a wing called {wing}");
