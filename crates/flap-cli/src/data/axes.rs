@@ -143,8 +143,8 @@ fn sample(table: &Table, kept: &[Varied], others: &[Varied]) -> Vec<usize> {
 /// of points.
 const FEWEST: usize = 8;
 
-/// Returns true if the values of two columns determine each other but have different orders, as two
-/// parameters of a sample do.
+/// Returns true if two columns look like two parameters of a sample. In a sample, `other` determines the values
+/// of `column`, these values are unevenly spaced, and the rank correlation is small.
 fn is_mixed((column, levels): (usize, &Levels), (other, others): &Varied, table: &Table) -> bool {
     let (Cells::Numbers(one), Cells::Numbers(two)) =
         (&table.columns[column].cells, &table.columns[*other].cells)

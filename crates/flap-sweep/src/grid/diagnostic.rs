@@ -56,7 +56,7 @@ impl Diagnostic {
         self
     }
 
-    /// Adds a line to the message that describes the allowed values or forms.
+    /// Adds a line about the allowed values or forms to the message.
     pub(crate) fn note(&mut self, note: impl Into<String>) -> &mut Diagnostic {
         self.notes.push(shortened(&note.into()).into_owned());
         self

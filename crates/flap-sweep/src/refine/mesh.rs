@@ -78,7 +78,7 @@ pub(super) struct Mesh {
     /// Index of the point at each place. Points are numbered in the order in which they were added.
     numbers: HashMap<Place, usize>,
     /// For each axis of the mesh, the lines of points that are parallel to the axis. The key in the map is
-    /// the place at which the line begins, with the position 0 along the axis. A line maps the position of
+    /// the place at position 0 of the line, which is the first value of the axis. A line maps the position of
     /// each point along the axis to the index of the point.
     lines: Vec<HashMap<Place, BTreeMap<u64, usize>>>,
     cells: Vec<Cell>,

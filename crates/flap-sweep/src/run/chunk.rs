@@ -87,7 +87,8 @@ impl Chunk {
     ///
     /// # Errors
     /// [`RunError::Chunk`] if the chunk is empty, or its points do not begin at `next`. The error also occurs
-    /// if the chunk was not computed with `plan`, this build and the arithmetic of `options`.
+    /// if the chunk was computed with another plan, another build of flap, or another floating-point arithmetic
+    /// than `options` selects.
     pub fn outcomes(self, plan: &Plan, options: &RunOptions, next: u64) -> Result<Vec<Outcome>, RunError> {
         let differences = Identity::of(plan, options).differences(&self.identity);
         if !differences.is_empty() {

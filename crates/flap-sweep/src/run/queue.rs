@@ -214,7 +214,7 @@ pub(super) struct Window<T> {
 
 impl<T> Window<T> {
     /// Returns an empty buffer for the outcomes of the units of work with the numbers `units`. The outcomes
-    /// of units with smaller numbers have already been written.
+    /// of all units of work with numbers below `units.start` have already been written.
     pub(super) fn new(units: Range<u64>, capacity: usize) -> Window<T> {
         Window {
             capacity: capacity.max(1) as u64,
