@@ -63,7 +63,7 @@ impl<T, const N: usize> PeriodEnd<T, N> {
 /// Exchange between a search and the driver. The search stores a request for a period, and the driver stores
 /// the results of the period.
 pub(super) struct Exchange<M: Model<N>, const N: usize> {
-    /// Start of the point.
+    /// Constants and initial state of the point, which the search and the driver read.
     pub(super) start: Start<M::Constants<f64>, N>,
     request: Cell<Option<Request<N>>>,
     end: Cell<Option<PeriodEnd<SumsOf<M, N>, N>>>,
