@@ -2,7 +2,7 @@
 
 use std::fs;
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use flap_sweep::files::beside::journal_of;
@@ -14,7 +14,7 @@ use flap_sweep::grid;
 use flap_sweep::plan::Plan;
 use flap_sweep::plan::selection::Shard;
 use flap_sweep::run::identity::Identity;
-use flap_sweep::run::{InvalidPoint, RunError, Sink, Summary, Written};
+use flap_sweep::run::{InvalidPoint, Progress, RunError, Sink, Summary, Written};
 use flap_sweep::table::layout::Cell;
 use temp_dir::TempDir;
 
@@ -113,6 +113,31 @@ fn a_session_goes_on_where_the_last_one_ended() {
             // The job removes the journal, after the sidecar.
             assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);
         }
+    }
+}
+
+/// Compressed rows are checkpointed at the ends of frames of 256 rows, and plain rows after each row.
+#[test]
+fn an_interrupted_run_computes_less_than_a_frame_again() {
+    let plan = plan(Fake::leak(Fault::None, 8), 20_000);
+    let seldom = SessionOptions { run: options(2, 100), checkpoint_interval: Duration::from_hours(1) };
+    for (name, frame) in [("rows.csv", 1), ("rows.csv.zst", 256)] {
+        let folder = TempDir::new().unwrap();
+        let path = folder.path().join(name);
+        let file = output::create(&path, false).unwrap().0;
+        let begun = (path.as_path(), Format::of(&path).unwrap());
+        let mut session =
+            Session::start(file, begun, &plan, &seldom, "2026-01-02".to_owned(), false).unwrap();
+        let stop = AtomicBool::new(false);
+        let mut stop_after_some = |now: Progress| stop.store(now.finished >= 1000, Ordering::SeqCst);
+        let summary =
+            resume(&plan, &seldom.run, Summary::default(), &mut session, &stop, &mut stop_after_some)
+                .unwrap();
+        assert!(summary.is_interrupted() && summary.rows >= 1000, "{summary:?}");
+        session.end(&summary).unwrap();
+        drop(session);
+        let resumed = Session::resume(&path, &plan, &seldom).unwrap();
+        assert_eq!(resumed.before.rows, summary.rows / frame * frame, "{name}");
     }
 }
 

@@ -54,6 +54,8 @@ pub struct Session {
     journal: Journal,
     checkpoint_interval: Duration,
     last_checkpoint: Instant,
+    /// Checkpoint at the end of the last frame of a compressed file, if it is not yet in the journal.
+    frame_end: Option<Checkpoint>,
     began: Instant,
     seconds_before: f64,
 }
@@ -201,6 +203,7 @@ impl Session {
             journal,
             checkpoint_interval: options.checkpoint_interval,
             last_checkpoint: now,
+            frame_end: None,
             began: now,
             seconds_before: 0.0,
         }
@@ -235,8 +238,9 @@ impl Session {
         rows_of(&self.path, self.format)
     }
 
-    /// Adds the last checkpoint. If the run is complete and the results are a Parquet file, the function also
-    /// writes the Parquet file. Call this function after [`Sink::finish`].
+    /// Adds the last checkpoint. If a run is interrupted within a frame of a compressed file, the last
+    /// checkpoint is at the end of the frame before. If the run is complete and the results are a Parquet
+    /// file, the function also writes the Parquet file. Call this function after [`Sink::finish`].
     ///
     /// # Errors
     /// - [`io::ErrorKind::Other`] if a file into which the session writes was removed, replaced or changed.
@@ -244,6 +248,8 @@ impl Session {
     pub fn end(&mut self, summary: &Summary) -> io::Result<()> {
         if !summary.is_interrupted() || self.rows.may_be_cut() {
             self.write_checkpoint(summary)?;
+        } else if let Some(checkpoint) = self.frame_end.take() {
+            self.add(&checkpoint)?;
         }
         if !summary.is_interrupted() && self.format.is_columnar() {
             disk::empty(&self.results)?;
@@ -265,15 +271,25 @@ impl Session {
         &self.path
     }
 
-    /// Waits until the rows so far are safe on disk (fsync), then adds a checkpoint to the journal.
+    /// Writes the buffered rows, and adds a checkpoint after them to the journal.
     fn write_checkpoint(&mut self, so_far: &Summary) -> io::Result<()> {
         self.rows.flush()?;
+        self.add(&self.checkpoint(so_far))
+    }
+
+    /// Returns a checkpoint after the bytes that are written so far.
+    fn checkpoint(&self, so_far: &Summary) -> Checkpoint {
+        Checkpoint::new(self.seconds(), self.rows.extent(), so_far.clone())
+    }
+
+    /// Waits until the written rows are safe on disk (fsync), then adds the checkpoint to the journal.
+    fn add(&mut self, checkpoint: &Checkpoint) -> io::Result<()> {
         disk::check_in_place(&self.results, &self.path)?;
         disk::check_in_place(self.rows.file(), &self.rows_path())?;
         self.rows.file().sync_data()?;
-        let (seconds, file) = (self.seconds(), self.rows.extent());
-        self.journal.add(&Checkpoint::new(seconds, file, so_far.clone()))?;
+        self.journal.add(checkpoint)?;
         self.last_checkpoint = Instant::now();
+        self.frame_end = None;
         Ok(())
     }
 }
@@ -302,8 +318,14 @@ impl Sink for Session {
     }
 
     fn after_point(&mut self, so_far: &Summary) -> io::Result<()> {
-        if self.rows.may_be_cut() && self.last_checkpoint.elapsed() >= self.checkpoint_interval {
-            self.write_checkpoint(so_far)?;
+        if !self.rows.may_be_cut() {
+            return Ok(());
+        }
+        if self.last_checkpoint.elapsed() >= self.checkpoint_interval {
+            return self.write_checkpoint(so_far);
+        }
+        if self.rows.is_compressed() {
+            self.frame_end = Some(self.checkpoint(so_far));
         }
         Ok(())
     }

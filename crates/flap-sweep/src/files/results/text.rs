@@ -137,7 +137,8 @@ impl TextRows {
         &self.lines.target().file.file
     }
 
-    fn is_compressed(&self) -> bool {
+    /// Returns true if the text is compressed in frames.
+    pub(crate) fn is_compressed(&self) -> bool {
         self.lines.target().compressor.is_some()
     }
 }
