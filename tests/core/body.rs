@@ -533,7 +533,11 @@ fn a_given_motion_in_the_wind_has_its_forces_with_both_responses() {
     for response in [BodyResponse::Passive, BodyResponse::Frozen] {
         let changes = [("body_velocity_forward", 3.0), ("body_response", f64::from(response as u8))];
         let (model, values) = design("jafferis2016", &changes);
-        let forces = model.experiments().unwrap().imposed(&values, &motion).unwrap();
+        let forces = model
+            .experiments()
+            .unwrap()
+            .imposed(&PointRun::new(Backend::best(), &SolverSettings::default(), &values), &motion)
+            .unwrap();
         let at = |name: &str| forces.columns.iter().position(|column| column == name).unwrap();
         for row in &forces.rows {
             assert_close(row[at("lift_mn")], 0.446_496_958_309_645, 1e-9, "lift");

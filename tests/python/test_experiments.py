@@ -273,3 +273,10 @@ def test_forces_of_filmed_wings_are_those_of_the_command(flap, tmp_path):
         flapwing.track_wing(film, chord=0.1)
     with pytest.raises(ValueError, match="there is no column pitch_rad or pitch_deg; the file has time_s, stroke_deg"):
         flapwing.forces_along(PRESET, flapwing.track_wing(film))
+
+
+def test_forces_have_at_most_five_million_samples():
+    motion = {"time_s": [0.0, 1.0, 2.0, 3.0], "stroke_rad": [0.0, 0.1, 0.2, 0.1], "pitch_rad": [0.0, 0.1, 0.0, 0.2]}
+    with pytest.raises(ValueError, match="4000000000 samples are too many: at most 5000000 are allowed"):
+        flapwing.forces_along(PRESET, motion, samples=4_000_000_000)
+    assert len(flapwing.forces_along(PRESET, motion, samples=10)) == 11

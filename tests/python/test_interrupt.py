@@ -20,6 +20,9 @@ ENDLESS = {"max_cycles": 10**9, "newton": False, "settle_tol": 1e-300}
 #: A grid with a point that does not end.
 GRID = {"preset": PRESET, "axes": {"drive_frequency": [90, 100]}, "solver": ENDLESS}
 
+#: Stroke and pitch over time.
+MOTION = {"time_s": [0.0, 0.1, 0.2, 0.3], "stroke_rad": [0.0, 0.1, 0.2, 0.1], "pitch_rad": [0.0, 0.1, 0.0, 0.2]}
+
 #: Readings of a stroke.
 READINGS = {"drive_frequency": [90.0, 95.0, 100.0] * 20, "stroke_pp_deg": [40.0, 41.0, 42.0] * 20}
 
@@ -47,6 +50,7 @@ def ctrl_c():
         lambda _: flapwing.run(PRESET, drive_frequency=1e-3, max_steps=2**32 - 1, rtol=1e-12),
         lambda _: flapwing.trajectory(PRESET, **ENDLESS),
         lambda _: flapwing.trajectory(PRESET, cycles=5_000_000, samples=1, from_rest=True),
+        lambda _: flapwing.forces_along(PRESET, MOTION, samples=5_000_000),
         lambda _: flapwing.resonance(PRESET, **ENDLESS),
         lambda _: flapwing.resonance(PRESET, rtol=1e-13, spectrum_window=100),
         lambda _: flapwing.evaluate(PRESET, {"drive_frequency": [100.0]}, **ENDLESS),

@@ -125,7 +125,9 @@ pub(crate) fn forces_along<'py>(
         samples: convert::count("samples", samples)?,
     };
     let experiments = experiments(&chosen)?;
-    let forces = py.detach(|| experiment::forces(experiments, &chosen.values, &imposed));
+    let forces = interruptible(py, |interrupted| {
+        experiment::forces(experiments, &chosen.run().until(interrupted), &imposed)
+    })?;
     let forces = forces.map_err(|reason| error::experiment(&reason))?;
     let meanings = motion::meanings(chosen.simulator(), &forces)?;
     motion::into_python(py, forces, meanings, &chosen.meta(py)?)

@@ -23,8 +23,9 @@ fn lift_of_a_filmed_motion_equals_the_reference() {
     let record = |name: &str| Samples::new(&times, &column(name), Repeat::Once).unwrap();
     let intervals = u32::try_from(times.len() - 1).unwrap();
     let motion = ImposedMotion { stroke: record("phi_rad"), pitch: record("psi_rad"), samples: intervals };
-    let lift =
-        model().experiments().unwrap().imposed(&Params::ozaki2018_small().to_values(), &motion).unwrap();
+    let (settings, values) = (SolverSettings::default(), Params::ozaki2018_small().to_values());
+    let run = PointRun::new(Backend::best(), &settings, &values);
+    let lift = model().experiments().unwrap().imposed(&run, &motion).unwrap();
 
     let at = |name: &str| lift.columns.iter().position(|column| column == name).unwrap();
     let peak = |values: &[f64]| values.iter().fold(0.0_f64, |peak, value| peak.max(value.abs()));

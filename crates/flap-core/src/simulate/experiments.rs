@@ -35,27 +35,31 @@ impl<M: ExperimentModel<N>, const N: usize> Experiments for Runner<M, N> {
 
     /// Computes the forces at equally spaced times, from the first to the last sample of the given motion. No
     /// equation is integrated.
-    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Invalid> {
+    fn imposed(&self, run: &PointRun<'_>, motion: &ImposedMotion) -> Result<Trajectory, Unfinished> {
         let ImposedMotion { stroke, pitch, samples } = motion;
         let (duration, other) = (stroke.duration(), pitch.duration());
         if (duration - other).abs() > 1e-9 * duration {
             return Err(Invalid::new(format!(
                 "stroke and pitch must have the same duration, not {duration} s and {other} s"
-            )));
+            ))
+            .into());
         }
         // Stroke and pitch are given, so the response of the wings to the motion of the body has no effect.
-        let values = &BodyParameters::passive(M::DESCRIPTION.parameters, values);
+        let values = &BodyParameters::passive(M::DESCRIPTION.parameters, run.values);
         let model = self.model.variant(values);
         let constants = model.start(values)?.constants;
         let rows = (0..=*samples).map(|i| {
+            if (run.interrupted)() {
+                return Err(Unfinished::Interrupted);
+            }
             let time = duration * (f64::from(i) / f64::from((*samples).max(1)));
             let (y, signals) = model.imposed(&constants, stroke.motion(time), pitch.motion(time));
             let mut row = vec![time];
             row.extend(y);
             row.extend(shown::<M::Signals>(&signals));
-            row
+            Ok(row)
         });
-        Ok(Trajectory { columns: trajectory_columns::<M, N>(), rows: rows.collect() })
+        Ok(Trajectory { columns: trajectory_columns::<M, N>(), rows: rows.collect::<Result<_, _>>()? })
     }
 
     fn modes(&self, values: &[f64]) -> Result<Vec<Mode>, Invalid> {

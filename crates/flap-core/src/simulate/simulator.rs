@@ -230,8 +230,9 @@ pub trait Experiments: Sync {
     /// Returns states and signals along an imposed motion. Signals of the actuator are NaN.
     ///
     /// # Errors
-    /// An error if the combination of values is impossible, or if stroke and pitch have different durations.
-    fn imposed(&self, values: &[f64], motion: &ImposedMotion) -> Result<Trajectory, Invalid>;
+    /// An error if the combination of values is impossible, if stroke and pitch have different durations, or if
+    /// the run is interrupted.
+    fn imposed(&self, run: &PointRun<'_>, motion: &ImposedMotion) -> Result<Trajectory, Unfinished>;
 
     /// Returns the natural modes of one point, which are small motions without damping. The first mode is the
     /// motion that an impulse on the stroke excites.

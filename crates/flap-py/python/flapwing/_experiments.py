@@ -152,7 +152,7 @@ def forces_along(
         motion is also the first sample of the next period.
     samples : int, optional
         Number of equal time intervals into which the given motion is divided. Forces are computed at the ends of the
-        intervals. The default of `samples` is 2000 intervals.
+        intervals. The largest number is 5 million, and the default of `samples` is 2000 intervals.
     **keywords : float or str
         Parameters of the model, as for `run`.
 

@@ -60,13 +60,18 @@ pub fn chirp(
 /// out.
 ///
 /// # Errors
-/// An error if a force is infinite or NaN, and the errors of [`Experiments::imposed`].
+/// An error if the number of samples is too large or a force is infinite or NaN, and the errors of
+/// [`Experiments::imposed`].
 pub fn forces(
     model: &dyn Experiments,
-    values: &[f64],
+    run: &PointRun<'_>,
     motion: &ImposedMotion,
 ) -> Result<Trajectory, UserError> {
-    let Trajectory { columns, rows } = model.imposed(values, motion).map_err(Unfinished::from)?;
+    if motion.samples > INTERVALS_MAX {
+        let message = format!("{} samples are too many: at most {INTERVALS_MAX} are allowed", motion.samples);
+        return Err(UserError::new(message, None));
+    }
+    let Trajectory { columns, rows } = model.imposed(run, motion)?;
     let known: Vec<usize> =
         (0..columns.len()).filter(|&column| rows.iter().any(|row| !row[column].is_nan())).collect();
     for row in &rows {

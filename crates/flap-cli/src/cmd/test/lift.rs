@@ -18,20 +18,21 @@ use crate::print;
 use crate::table::{Table, six_digits};
 
 pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
-    let Chosen { plan, values, .. } = Chosen::new(&args.point, &SolverArgs::default())?;
-    check_one_wing(&plan, &args.point.what, "`flap test lift`")?;
+    let chosen = Chosen::new(&args.point, &SolverArgs::default())?;
+    let plan = &chosen.plan;
+    check_one_wing(plan, &args.point.what, "`flap test lift`")?;
     let mut inputs = Inputs::new();
-    inputs.add_plan(&plan).add("the motion", &args.motion);
+    inputs.add_plan(plan).add("the motion", &args.motion);
     outputs::check_tables(&inputs, [args.trajectory.as_deref()])?;
     let repeat = if args.periodic { Repeat::Periodic } else { Repeat::Once };
     let file = Record::read(&args.motion)?;
     let stroke = file.samples(&record::STROKE, repeat)?;
     let pitch = file.samples(&record::PITCH, repeat).map_err(|error| match error {
-        RecordError::Missing { .. } => stroke_alone(error, &plan, args),
+        RecordError::Missing { .. } => stroke_alone(error, plan, args),
         _ => error.into(),
     })?;
     let motion = ImposedMotion { stroke, pitch, samples: args.samples };
-    let forces = experiment::forces(plan.simulator().experiments()?, &values, &motion)?;
+    let forces = experiment::forces(plan.simulator().experiments()?, &chosen.run(), &motion)?;
 
     if let Some(path) = &args.trajectory {
         write_file(&forces, path, args.overwrite.force, "sample")?;
