@@ -23,6 +23,25 @@ GRID = {"preset": PRESET, "axes": {"drive_frequency": [90, 100]}, "solver": ENDL
 #: Stroke and pitch over time.
 MOTION = {"time_s": [0.0, 0.1, 0.2, 0.3], "stroke_rad": [0.0, 0.1, 0.2, 0.1], "pitch_rad": [0.0, 0.1, 0.0, 0.2]}
 
+#: A vehicle that can fly.
+ROBOT = flapwing.Vehicle(
+    {
+        "preset": "jafferis2016",
+        "params": {
+            "drive_voltage_pp": 140.0,
+            "body_inertia_roll": 1.5e-9,
+            "body_inertia_pitch": 1.5e-9,
+            "body_inertia_yaw": 0.5e-9,
+        },
+    },
+    [
+        flapwing.Wing("left", position=["0 mm", "2 mm", "0 mm"]),
+        flapwing.Wing("right", position=["0 mm", "2 mm", "0 mm"], mirrored=True),
+    ],
+    about=["0 mm", "0 mm", "-3 mm"],
+    total_mass="69 mg",
+)
+
 #: Readings of a stroke.
 READINGS = {"drive_frequency": [90.0, 95.0, 100.0] * 20, "stroke_pp_deg": [40.0, 41.0, 42.0] * 20}
 
@@ -51,6 +70,7 @@ def ctrl_c():
         lambda _: flapwing.trajectory(PRESET, **ENDLESS),
         lambda _: flapwing.trajectory(PRESET, cycles=5_000_000, samples=1, from_rest=True),
         lambda _: flapwing.forces_along(PRESET, MOTION, samples=5_000_000),
+        lambda _: flapwing.fly(ROBOT, seconds=0.1, samples=400_000, averaged=True, drive_frequency=120),
         lambda _: flapwing.resonance(PRESET, **ENDLESS),
         lambda _: flapwing.resonance(PRESET, rtol=1e-13, spectrum_window=100),
         lambda _: flapwing.evaluate(PRESET, {"drive_frequency": [100.0]}, **ENDLESS),

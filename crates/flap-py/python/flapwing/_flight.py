@@ -63,7 +63,8 @@ def fly(
         If True, the linear model about hover is solved exactly, without the error of a numerical integration. By
         default, the coupled motion of wings and body is simulated.
     samples : int, optional
-        Number of samples in each wing beat. By default, each row contains the means over one wing beat.
+        Number of samples in each wing beat. The whole flight can have 5 million samples. By default, each row contains
+        the means over one wing beat.
     point : int, optional
         The index of a point, if the vehicle is a grid with several points.
     progress : bool or function, optional

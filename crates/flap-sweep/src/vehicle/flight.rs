@@ -26,6 +26,9 @@ pub const FED_BACK: usize = 9;
 /// Largest number of wing beats of a simulated flight.
 const MOST_BEATS: f64 = 1e6;
 
+/// Largest number of rows of a simulated flight. All rows are stored in memory.
+const MOST_ROWS: f64 = 5e6;
+
 /// Settings of a flight simulation.
 #[derive(Clone, Debug)]
 pub struct FlightRequest {
@@ -114,18 +117,24 @@ pub fn fly(
         ));
     }
     let parts = samples.unwrap_or(1);
+    let rows = (seconds / motion.period() * (1.0 - 1e-12)).ceil() * f64::from(parts);
+    if rows > MOST_ROWS {
+        return refused(format!(
+            "{parts} samples in each wing beat are too many: a flight of {seconds} s has {rows} samples, and at most 5e6 are allowed"
+        ));
+    }
     let mut record = FlightRecord { columns: columns(inputs), rows: Vec::new(), end: None };
     let (mut time, mut now) = (0.0, point.clone());
     record.end = 'flight: loop {
         if time >= seconds * (1.0 - 1e-12) {
             break None;
         }
-        if (vehicle_run.interrupted)() {
-            return Err(HoverError::from(ControlError::from(Unfinished::Interrupted)).into());
-        }
         let period = motion.period();
         let mut rows = Vec::new();
         for part in 0..parts {
+            if (vehicle_run.interrupted)() {
+                return Err(HoverError::from(ControlError::from(Unfinished::Interrupted)).into());
+            }
             let [from, to] = [part, part + 1].map(|part| period * f64::from(part) / f64::from(parts));
             if samples.is_some() {
                 rows.push(row(time + from, &motion.state(from), &now));
