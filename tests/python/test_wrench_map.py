@@ -112,6 +112,8 @@ def test_other_mistakes(quadratic):
     ranges = {"bias": (-10, 10)}
     with pytest.raises(ValueError, match="5 samples are too few for 3 coefficients .*: at least 10 are needed"):
         flapwing.wrench_map(VEHICLE, ranges=ranges, samples=5)
+    with pytest.raises(ValueError, match="4000000000 samples are too many: at most 1000000 are allowed"):
+        flapwing.wrench_map(VEHICLE, ranges=ranges, samples=4_000_000_000)
     with pytest.raises(ValueError, match="the design describes one wing, not a vehicle\nadd"):
         flapwing.wrench_map("jafferis2016", ranges=ranges)
     with pytest.raises(ValueError, match="none of the 400 rows are periodic, .*: 400 unsettled\nchoose narrower"):

@@ -37,7 +37,7 @@ pub(crate) struct VehicleArgs {
     pub(crate) wrench_map: Vec<NamedRange>,
 
     /// Number of rows of --wrench-map; every fifth row is left out of the fit, to test the map
-    #[arg(long, value_name = "N", default_value_t = WrenchMap::SAMPLES, value_parser = value_parser!(u32).range(1..=1_000_000), requires = "wrench_map")]
+    #[arg(long, value_name = "N", default_value_t = WrenchMap::SAMPLES, value_parser = value_parser!(u32).range(1..=i64::from(WrenchMap::MOST_SAMPLES)), requires = "wrench_map")]
     pub(crate) samples: u32,
 
     /// Number of worker threads of --wrench-map; the number does not change the map [default: one thread per core]

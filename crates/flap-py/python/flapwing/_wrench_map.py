@@ -138,7 +138,7 @@ def wrench_map(
         input acts on all wings. The input ``"bias_difference"`` is the bias of left wings minus the bias of right
         wings. The input ``"left_bias"`` changes only the wing with the name `left`.
     samples : int, optional
-        Number of rows to compute. The default of `samples` is 400 rows.
+        Number of rows to compute, at most a million. The default of `samples` is 400 rows.
     point : int, optional
         The index of a point, counted from 0, if the grid has several points.
     threads : int, optional

@@ -133,6 +133,9 @@ impl WrenchMap {
     /// Largest number of inputs of a wrench map.
     pub const MOST_INPUTS: usize = 16;
 
+    /// Largest number of samples of a wrench map. The rows of all samples are in memory at the same time.
+    pub const MOST_SAMPLES: u32 = 1_000_000;
+
     /// Default number of samples of a wrench map.
     pub const SAMPLES: u32 = 400;
 
@@ -373,6 +376,12 @@ fn check(inputs: &[MapInput], samples: u32) -> Result<(), UserError> {
         if inputs[..place].iter().any(|other| other.parameter == input.parameter) {
             return Err(inputs::twice(&input.name));
         }
+    }
+    let most = WrenchMap::MOST_SAMPLES;
+    if samples > most {
+        let help = "a few hundred samples are usual for four inputs";
+        let message = format!("{samples} samples are too many: at most {most} are allowed");
+        return Err(UserError::new(message, Some(help)));
     }
     let terms = terms(given).len();
     let needed = needed(terms);
