@@ -107,6 +107,13 @@ def test_a_huge_grid_costs_nothing():
     assert grid[10**12 - 1]["drag_coefficient_max"] == 2.0
 
 
+def test_an_axis_that_is_too_long_for_an_array_is_refused():
+    grid = flapwing.Grid({"preset": "ozaki2018-large", "axes": {"air_density": {"from": 1.0, "to": 2.0, "n": 10**14}}})
+    for call in (lambda: grid.axes, lambda: flapwing.sweep(grid)):
+        with pytest.raises(ValueError, match="`air_density` has 100000000000000 values: .* at most 100000000\nchoose"):
+            call()
+
+
 def test_all_mistakes_are_told_with_their_places():
     text = 'preset = "ozaki2018-large"\n[axes]\ndrive_frequenc = ["100 Hz"]\nwing_length = ["3 kg", "1 mm"]\n'
     with pytest.raises(flapwing.GridError) as caught:

@@ -20,6 +20,9 @@ ENDLESS = {"max_cycles": 10**9, "newton": False, "settle_tol": 1e-300}
 #: A grid with a point that does not end.
 GRID = {"preset": PRESET, "axes": {"drive_frequency": [90, 100]}, "solver": ENDLESS}
 
+#: An axis with as many values as an array can have.
+LONG = {"air_density": {"from": 1.0, "to": 2.0, "n": 100_000_000}}
+
 #: Stroke and pitch over time.
 MOTION = {"time_s": [0.0, 0.1, 0.2, 0.3], "stroke_rad": [0.0, 0.1, 0.2, 0.1], "pitch_rad": [0.0, 0.1, 0.0, 0.2]}
 
@@ -71,6 +74,8 @@ def ctrl_c():
         lambda _: flapwing.trajectory(PRESET, cycles=5_000_000, samples=1, from_rest=True),
         lambda _: flapwing.forces_along(PRESET, MOTION, samples=5_000_000),
         lambda _: flapwing.fly(ROBOT, seconds=0.1, samples=400_000, averaged=True, drive_frequency=120),
+        lambda _: flapwing.Grid({"preset": PRESET, "axes": LONG})[::1],
+        lambda _: flapwing.Grid({"preset": PRESET, "axes": LONG}).axes,
         lambda _: flapwing.resonance(PRESET, **ENDLESS),
         lambda _: flapwing.resonance(PRESET, rtol=1e-13, spectrum_window=100),
         lambda _: flapwing.evaluate(PRESET, {"drive_frequency": [100.0]}, **ENDLESS),

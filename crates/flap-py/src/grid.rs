@@ -9,7 +9,7 @@ use flap_sweep::plan::Plan;
 use flap_sweep::plan::axes::Values;
 use flap_sweep::study::survey;
 use numpy::PyArray1;
-use pyo3::exceptions::{PyException, PyIndexError, PyTypeError};
+use pyo3::exceptions::{PyException, PyIndexError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList, PySlice, PyString};
 
@@ -17,6 +17,9 @@ use crate::{columns, convert, error, grid_text, parameters};
 
 /// Largest number of points for which `Grid.exclusions` evaluates the conditions.
 const LOOKED_AT: u64 = 1_000_000;
+
+/// Largest number of positions along an axis whose values are returned as an array.
+const LONGEST_AXIS: u64 = 100_000_000;
 
 /// A grid file that was read and checked.
 ///
@@ -70,6 +73,7 @@ impl Grid {
             let points = PyList::empty(py);
             let mut place = range.start;
             for _ in 0..range.slicelength {
+                py.check_signals()?;
                 points.append(self.point(py, place.unsigned_abs() as u64)?)?;
                 place += range.step;
             }
@@ -258,8 +262,23 @@ pub(crate) fn parse(py: Python<'_>, name: &str, text: &str) -> PyResult<Plan> {
     with_warnings(py, plan)
 }
 
+/// Returns an error if an axis of a plan is too long for an array of its values.
+pub(crate) fn check_axes(plan: &Plan) -> PyResult<()> {
+    let Some(axis) = plan.axes().as_slice().iter().find(|axis| axis.len() > LONGEST_AXIS) else {
+        return Ok(());
+    };
+    let names = axis.parameters().iter().map(|(index, _)| plan.parameters()[*index].name);
+    let names = names.collect::<Vec<_>>().join("` + `");
+    Err(PyValueError::new_err(format!(
+        "the axis `{names}` has {} values: an array of values has at most {LONGEST_AXIS}\n\
+         choose fewer values, or compute the rows with the command `flap sweep`",
+        axis.len()
+    )))
+}
+
 /// Returns the axes of a plan, see [`Grid::axes`].
 pub(crate) fn axes<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyList>> {
+    check_axes(plan)?;
     let list = PyList::empty(py);
     for axis in plan.axes().as_slice() {
         let dict = PyDict::new(py);
@@ -274,12 +293,13 @@ pub(crate) fn axes<'py>(py: Python<'py>, plan: &Plan) -> PyResult<Bound<'py, PyL
         }
         for (index, values) in axis.parameters() {
             let parameter = &plan.parameters()[*index];
-            let numbers = (0..values.len()).map(|place| values.get(place));
-            let mut options = numbers.clone().map(|value| text::option(parameter, value)).peekable();
-            if options.peek().is_some_and(Option::is_some) {
+            let numbers = (0..values.len()).map(|place| py.check_signals().map(|()| values.get(place)));
+            let numbers = numbers.collect::<PyResult<Vec<f64>>>()?;
+            if numbers.first().is_some_and(|value| text::option(parameter, *value).is_some()) {
+                let options = numbers.iter().map(|value| text::option(parameter, *value));
                 dict.set_item(parameter.name, options.collect::<Vec<_>>())?;
             } else {
-                dict.set_item(parameter.name, PyArray1::from_iter(py, numbers))?;
+                dict.set_item(parameter.name, PyArray1::from_vec(py, numbers))?;
             }
         }
         list.append(dict)?;

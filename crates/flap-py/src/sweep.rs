@@ -43,6 +43,8 @@ pub(crate) fn sweep<'py>(
     let chunks = chunks.map(Bound::unbind);
     let plan = &grid.get().plan;
     let options = options(threads)?;
+    // Otherwise the error would follow after all rows are computed.
+    grid::check_axes(plan)?;
     let on_existing = if restart { OnExisting::Restart } else { OnExisting::Continue };
     match out {
         None if restart => Err(PyValueError::new_err("restart requires a file of results: give out")),
