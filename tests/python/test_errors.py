@@ -8,6 +8,7 @@ import sys
 import textwrap
 
 import flapwing
+import numpy as np
 import pytest
 
 PRESET = "ozaki2018-large"
@@ -41,6 +42,13 @@ def test_unknown_parameter():
 
 def test_misspelt_solver_setting():
     assert "did you mean `max_cycles`?" in refused(ValueError, PRESET, max_cycle=50)
+
+
+def test_flags_of_numpy_are_no_numbers():
+    for name, wanted in (("drive_frequency", "a number in Hz or text with a unit"), ("max_cycles", "a whole number")):
+        assert f"`{name}` must be {wanted}, not bool" in refused(TypeError, PRESET, **{name: np.bool_(True)})
+    assert flapwing.run(PRESET, newton=np.bool_(False)) == flapwing.run(PRESET, newton=False)
+    assert flapwing.run(PRESET, newton=np.bool_(False)) != flapwing.run(PRESET, newton=np.bool_(True))
 
 
 def test_unknown_option():

@@ -114,6 +114,13 @@ def test_an_axis_that_is_too_long_for_an_array_is_refused():
             call()
 
 
+def test_flags_of_numpy_are_flags():
+    grid = {"preset": "ozaki2018-large", "solver": {"newton": np.bool_(False)}}
+    assert "newton = false" in flapwing.Grid(grid).text
+    with pytest.raises(flapwing.GridError, match="`drive_frequency` must be .*, not a boolean"):
+        flapwing.Grid({"preset": "ozaki2018-large", "params": {"drive_frequency": np.bool_(True)}})
+
+
 def test_all_mistakes_are_told_with_their_places():
     text = 'preset = "ozaki2018-large"\n[axes]\ndrive_frequenc = ["100 Hz"]\nwing_length = ["3 kg", "1 mm"]\n'
     with pytest.raises(flapwing.GridError) as caught:

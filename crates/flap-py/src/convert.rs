@@ -5,7 +5,7 @@ use flap_sweep::notation::units;
 use flap_sweep::resonance;
 use pyo3::exceptions::{PyException, PyIndexError, PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyString};
+use pyo3::types::PyString;
 
 use crate::error;
 
@@ -15,7 +15,7 @@ use crate::error;
 /// an exception. The message contains the name `name` and the required type `wanted`. Returns a `ValueError`
 /// if the number is infinite, not a number, or too large.
 pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
-    if value.is_instance_of::<PyBool>() {
+    if flag(value).is_some() {
         return Err(wrong_type(name, wanted, value));
     }
     let number = value.extract::<f64>().map_err(|error| {
@@ -62,7 +62,7 @@ pub(crate) fn quantity(name: &str, unit: &str, takes_text: bool, value: &Bound<'
 /// and a whole number below 1 or above the largest `u32` is a `ValueError`.
 pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
     let wanted = "a whole number";
-    if value.is_instance_of::<PyBool>() {
+    if flag(value).is_some() {
         return Err(wrong_type(name, wanted, value));
     }
     let count = match value.extract::<u32>() {
@@ -79,6 +79,11 @@ pub(crate) fn count(name: &str, value: &Bound<'_, PyAny>) -> PyResult<u32> {
         return Err(PyValueError::new_err(format!("`{name}` must be from 1 to {}, not {found}", u32::MAX)));
     }
     Ok(count)
+}
+
+/// Returns the value of a `bool` or of NumPy's `bool`. Returns `None` for an object of any other type.
+pub(crate) fn flag(value: &Bound<'_, PyAny>) -> Option<bool> {
+    value.extract().ok()
 }
 
 /// Returns the `TypeError` for a value of the wrong type.

@@ -6,7 +6,7 @@
 
 use pyo3::exceptions::{PyOverflowError, PyTypeError};
 use pyo3::prelude::*;
-use pyo3::types::{PyBool, PyDict, PyList, PyMapping, PyRange, PyString, PyTuple};
+use pyo3::types::{PyDict, PyList, PyMapping, PyRange, PyString, PyTuple};
 use toml::Value;
 
 use crate::{convert, error};
@@ -176,8 +176,8 @@ pub(crate) fn inline(value: &Bound<'_, PyAny>, place: &str, level: usize) -> PyR
 }
 
 fn scalar(value: &Bound<'_, PyAny>, place: &str) -> PyResult<Value> {
-    if let Ok(flag) = value.cast::<PyBool>() {
-        return Ok(Value::Boolean(flag.is_true()));
+    if let Some(flag) = convert::flag(value) {
+        return Ok(Value::Boolean(flag));
     }
     if let Ok(text) = value.cast::<PyString>() {
         return Ok(Value::String(text.to_cow()?.into_owned()));

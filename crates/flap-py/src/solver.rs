@@ -53,8 +53,8 @@ impl<'py> Keywords<'py> {
                 SettingKind::Number { below, set, .. } => set(settings, tolerance(name, *below, value)?),
                 SettingKind::Count { set, .. } => set(settings, convert::count(name, value)?),
                 SettingKind::Flag { set, .. } => {
-                    let flag = value.extract::<bool>();
-                    set(settings, flag.map_err(|_| convert::wrong_type(name, "True or False", value))?);
+                    let flag = convert::flag(value);
+                    set(settings, flag.ok_or_else(|| convert::wrong_type(name, "True or False", value))?);
                 }
             }
         }

@@ -183,8 +183,8 @@ def _dimensions(name: str, values: Any) -> int:
 
 def _column(name: str, values: Any) -> np.ndarray[Any, Any] | list[Any]:
     """Return a column as an array of float64, or as a list if the values are not numbers."""
-    if isinstance(values, (list, tuple)) and any(isinstance(value, str) for value in values):
-        # NumPy would convert the numbers among them to text.
+    if isinstance(values, (list, tuple)) and any(isinstance(value, (str, bool, np.bool_)) for value in values):
+        # NumPy would convert numbers next to text to text, and True next to numbers to 1.
         return list(values)
     if isinstance(values, (dict, set, frozenset)):
         raise _mistakes.refused(name, values, "it must be one value, or a list, an array or a Series of values")
