@@ -376,6 +376,8 @@ def test_what_results_refuse():
         with pytest.raises(ValueError) as caught:
             call()
         assert says in str(caught.value)
+    with pytest.raises(TypeError, match="`path` is int\nit must be the path of a device file"):
+        found.write_device(1)
 
 
 def test_scipy_is_needed_and_told(monkeypatch):

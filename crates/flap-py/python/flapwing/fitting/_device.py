@@ -13,6 +13,7 @@ import numpy as np
 
 from .. import _flapwing
 from .._evaluate import evaluate
+from .._mistakes import refused
 from ._solution import Solution
 
 #: Largest correlation in a device file. With larger correlations, rounding could make the correlation matrix
@@ -25,6 +26,8 @@ _FITTED = re.compile(r"(; |^)fitted to \d+ readings, .*", re.DOTALL)
 
 def write(fit: Solution, path: str | os.PathLike[str], data_set: str | None, overwrite: bool) -> None:
     """Write the result of a fit to a device file. Raise FileExistsError if `path` exists and `overwrite` is False."""
+    if not isinstance(path, (str, os.PathLike)):
+        raise refused("path", path, "it must be the path of a device file")
     text = text_of(fit, data_set)
     try:
         with open(path, "w" if overwrite else "x", encoding="utf-8") as file:

@@ -272,6 +272,8 @@ class Fit(Solution):
         ValueError
             Raised if `data_set` is unknown. Raised if some parameters have a separate value for each data set, and
             `data_set` is not given.
+        TypeError
+            Raised if `path` is not a path.
         """
         _device.write(self, path, data_set, _arguments.flag("overwrite", overwrite))
 
