@@ -92,6 +92,10 @@ def test_rows_are_chosen_by_masks_slices_and_indices(table):
         table[3]
     with pytest.raises(IndexError):
         table[np.ones(3, dtype=bool)]
+    mask = np.ma.masked_array(table["status"] == "periodic", np.arange(len(table)) == 1)
+    with pytest.raises(ValueError, match=f"has 1 masked of {len(table)} values\nleave out rows"):
+        table[mask]
+    assert len(table[mask.filled(False)]) == (table["status"] == "periodic").sum() - (table["status"][1] == "periodic")
 
 
 def test_a_table_is_not_made_by_hand():

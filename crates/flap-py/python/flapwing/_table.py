@@ -156,6 +156,11 @@ class Table:
         if isinstance(key, (list, tuple)) and key and all(isinstance(name, str) for name in key):
             chosen = {name: self._column(name) for name in key}
             return self._new(chosen, self.axes, copy.deepcopy(self.meta))
+        if isinstance(key, np.ma.MaskedArray) and np.ma.is_masked(key):
+            raise ValueError(
+                f"the selection of rows has {np.count_nonzero(key.mask)} masked of {key.size} values\n"
+                "leave out rows with an unknown value: table[mask.filled(False)]"
+            )
         try:
             rows = np.asarray(key)
         except Exception as error:
