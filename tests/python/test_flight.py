@@ -105,6 +105,8 @@ def test_mistakes(regulator):
         flapwing.fly(ROBOT, seconds=1, gains=[["much"]], inputs=["bias"], **POINT)
     with pytest.raises(TypeError, match="it must be a dictionary"):
         flapwing.fly(ROBOT, seconds=1, disturbance=1.0, **POINT)
+    with pytest.raises(TypeError, match="`gains` has complex numbers\nit must be a matrix of numbers"):
+        flapwing.fly(ROBOT, seconds=1, gains=1j * regulator["gains"], inputs=regulator["inputs"], **POINT)
     with pytest.raises(ValueError, match="a flight of 0.1 s has 48000000000 samples, and at most 5e6 are allowed"):
         flapwing.fly(ROBOT, seconds=0.1, samples=4_000_000_000, **POINT)
     with pytest.raises(ValueError, match="a flight of -1 s is impossible"):

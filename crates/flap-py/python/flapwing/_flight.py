@@ -134,7 +134,10 @@ def _matrix(gains: Any) -> list[list[float]]:
     """Return the gains of the controller as a list of the rows of the matrix."""
     allowed = "it must be a matrix of numbers: one row for each input, one column for each of nine states"
     with reading("gains", gains, allowed):
-        matrix = np.asarray(gains, dtype=np.float64)
+        given = np.asarray(gains)
+        matrix = np.asarray(given.real, dtype=np.float64)
+    if given.dtype.kind == "c":
+        raise TypeError(f"`gains` has complex numbers\n{allowed}")
     if matrix.ndim != 2:
         raise ValueError(f"`gains` has {matrix.ndim} dimensions\n{allowed}")
     rows: list[list[float]] = matrix.tolist()
