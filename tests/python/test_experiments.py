@@ -280,3 +280,12 @@ def test_forces_have_at_most_five_million_samples():
     with pytest.raises(ValueError, match="4000000000 samples are too many: at most 5000000 are allowed"):
         flapwing.forces_along(PRESET, motion, samples=4_000_000_000)
     assert len(flapwing.forces_along(PRESET, motion, samples=10)) == 11
+
+
+def test_times_of_tracked_points_increase():
+    film = {"root_x": [0.0] * 4, "root_y": [0.0] * 4, "tip_x": [1.0, 2.0, 3.0, 4.0], "tip_y": [4.0, 3.0, 2.0, 1.0]}
+    with pytest.raises(ValueError, match="points: times do not increase: row 3 is at 1 s, row 2 at 2 s"):
+        flapwing.track_wing({"time_s": [0.0, 2.0, 1.0, 3.0], **film})
+    with pytest.raises(ValueError, match="points: times do not increase: row 2 is at 0 s, row 1 at 0 s"):
+        flapwing.track_wing({"time_s": [0.0, 0.0, 1.0, 3.0], **film})
+    assert len(flapwing.track_wing({"time_s": [0.0, 1.0, 2.0, 3.0], **film})) == 4

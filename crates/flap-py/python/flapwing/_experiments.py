@@ -219,8 +219,9 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     Raises
     ------
     ValueError
-        Raised if a column is missing or has values that are not finite numbers. Raised if all leading edges are
-        parallel. Raised if the distance between lower edge and leading edge in an image is larger than the chord.
+        Raised if a column is missing or has values that are not finite numbers, or the times do not increase. Raised
+        if all leading edges are parallel. Raised if the distance between lower edge and leading edge in an image is
+        larger than the chord.
     OSError
         Raised if the file cannot be read.
     TypeError

@@ -170,23 +170,32 @@ impl Record {
         Ok(coordinate("x")?.into_iter().zip(coordinate("y")?).map(|(x, y)| [x, y]).collect())
     }
 
-    /// Returns a smooth function of time through the measured values of a quantity.
-    ///
-    /// # Errors
-    /// - [`RecordError::Wrong`] if the times of two measured values are too close, or if the measured
-    ///   values do not define a smooth function.
-    /// - Any error that [`Record::column`] returns for the time or for the quantity.
-    pub fn samples(&self, quantity: &Quantity<'_>, repeat: Repeat) -> Result<Samples, RecordError> {
-        let (times, values) = (self.column(&TIME)?, self.column(quantity)?);
+    /// Returns the times of the measured values (s).
+    fn times(&self) -> Result<Vec<f64>, RecordError> {
+        let times = self.column(&TIME)?;
         let duration = times.last().zip(times.first()).map_or(0.0, |(last, first)| last - first);
         let least = LEAST_STEP * duration.max(1.0);
         let mut steps = times.windows(2).map(|two| two[1] - two[0]).enumerate();
-        if let Some((at, step)) = steps.find(|(_, step)| *step > 0.0 && *step < least) {
+        if let Some((at, step)) = steps.find(|(_, step)| *step < least) {
             let (row, next) = (at + 1, at + 2);
-            return Err(self.wrong(&format!(
-                "rows {row} and {next} are {step:e} s apart, and must be at least {least:e} s"
-            )));
+            return Err(self.wrong(&if step > 0.0 {
+                format!("rows {row} and {next} are {step:e} s apart, and must be at least {least:e} s")
+            } else {
+                let [time, before] = [times[at + 1], times[at]];
+                format!("times do not increase: row {next} is at {time} s, row {row} at {before} s")
+            }));
         }
+        Ok(times)
+    }
+
+    /// Returns a smooth function of time through the measured values of a quantity.
+    ///
+    /// # Errors
+    /// - [`RecordError::Wrong`] if times do not increase or are too close, or if the measured values do not
+    ///   define a smooth function.
+    /// - Any error that [`Record::column`] returns for the time or for the quantity.
+    pub fn samples(&self, quantity: &Quantity<'_>, repeat: Repeat) -> Result<Samples, RecordError> {
+        let (times, values) = (self.times()?, self.column(quantity)?);
         Samples::new(&times, &values, repeat).map_err(|error| self.wrong(&error.to_string()))
     }
 
@@ -210,11 +219,11 @@ impl Record {
     /// points.
     ///
     /// # Errors
-    /// - [`RecordError::Wrong`] if the points have no centre of rotation, or if the chord in an image is
-    ///   longer than `chord`.
+    /// - [`RecordError::Wrong`] if times do not increase or are too close, if the points have no centre of
+    ///   rotation, or if the chord in an image is longer than `chord`.
     /// - The errors of [`Record::column`].
     pub fn tracked(&self, chord: Option<f64>) -> Result<(Trajectory, [f64; 2]), RecordError> {
-        let times = self.column(&TIME)?;
+        let times = self.times()?;
         let edges = self.points("root")?.into_iter().zip(self.points("tip")?);
         let edges: Vec<LeadingEdge> = edges.map(|(root, tip)| LeadingEdge { root, tip }).collect();
         let centre = rotation_centre(&edges).map_err(|invalid| RecordError::Wrong(invalid.to_string()))?;
