@@ -59,6 +59,9 @@ def test_predictions_have_bands(found):
     assert (np.abs(told.value - exact) < 4 * told.error).all()
     np.testing.assert_allclose(told.high - told.value, 1.96 * told.error, rtol=1e-3)
     assert "lift_mean_mn (mN)" in str(told)
+    assert told == told and told != found.predict(points, "lift_mean_mn") and len({told, found.goodness}) == 2
+    assert all(one == replace(one) and one in {one} for one in found.estimates.values())
+    assert found.goodness != replace(found.goodness, p=0.5)
 
 
 def test_next_measurements_shrink_the_error(found):

@@ -102,6 +102,7 @@ def test_linear_is_the_exported_model(flap, grid, robot, tmp_path):
     system = model.statespace()
     assert np.allclose(ordered(system.poles()), ordered(model.eigenvalues), rtol=1e-9, atol=1e-9)
     assert model.modes[0] == "pitch and forward velocity (longitudinal oscillation)"
+    assert model == model and model in {model} and model != robot.linear(drive_voltage_pp="140 V", **INERTIA)
     with pytest.raises(ValueError, match="body_inertia_roll"):
         robot.linear()
 

@@ -12,7 +12,7 @@ from ._types import Array
 Complexes = np.ndarray[Any, np.dtype[np.complex128]]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class LinearModel:
     """The linear model ``x' = A x + B s`` of small deviations `x` from hover, with changes `s` of the inputs.
 

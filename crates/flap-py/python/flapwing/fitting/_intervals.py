@@ -25,7 +25,7 @@ _BETWEEN = (1.0 / 3.0, 2.0 / 3.0)
 _NEAR = 0.03
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Profile:
     """The profile likelihood of a parameter.
 

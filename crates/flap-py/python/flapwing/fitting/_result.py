@@ -21,7 +21,7 @@ from ._points import answers_at, cell, error_of, points_of
 from ._solution import Solution
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Prediction:
     """Predictions of a measure at operating points, with the uncertainties of the predictions.
 

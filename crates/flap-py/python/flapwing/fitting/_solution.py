@@ -152,7 +152,7 @@ class Outlier:
     residual: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Residuals:
     """The residuals of a measure in a data set.
 
@@ -185,7 +185,7 @@ class Residuals:
     is_structured: bool = False
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Goodness:
     """The quality of a fit.
 
