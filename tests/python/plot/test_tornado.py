@@ -102,6 +102,33 @@ def test_a_change_without_a_periodic_motion_is_said(sensitivities):
     assert [text.get_text() for text in ax.texts] == ["no periodic motion at +5 %"]
 
 
+@pytest.mark.parametrize(
+    ("entries", "measure", "parameters", "says"),
+    [
+        ({}, "status", ["wing_length"], "there is no measure `status`"),
+        ({}, "lift_mean", ["wing_length"], "did you mean `lift_mean_mn`?"),
+        ({}, "lift_mean_mn", {"wing_length": (0.03, 0.03)}, "both values of `wing_length` are 0.03: give two"),
+        ({"axes": {"drive_bias": [0.0, 1.0]}}, "lift_mean_mn", ["wing_length"], "has 2 points, but one is required"),
+        ({"where": {"slow": "drive_frequency < 1"}}, "lift_mean_mn", ["wing_length"], "[where] excludes the design"),
+        (
+            {"where": {"long": "wing_length > 0.0299"}},
+            "lift_mean_mn",
+            {"wing_length": 0.5},
+            "[where] of the grid excludes the design with `wing_length` = ",
+        ),
+        (
+            {"output": {"columns": ["power_mean_mw"]}},
+            "lift_mean_mn",
+            ["wing_length"],
+            "the rows of the grid have no `lift_mean_mn`\nadd it to `columns` under [output]",
+        ),
+    ],
+)
+def test_designs_and_measures_without_sensitivities_are_refused(entries, measure, parameters, says):
+    grid = {"preset": "ozaki2018-large", **entries}
+    assert says in message(ValueError, analysis.sensitivities, grid, measure, parameters)
+
+
 def test_tornado_mistakes():
     assert "did you mean `wing_length`?" in message(
         ValueError, plot.tornado, "ozaki2018-large", "lift_mean_mn", ["wing_lengt"]

@@ -24,7 +24,7 @@ from ._flapwing import correlations, printed
 from ._listing import measures, params
 from ._mistakes import reading, unknown
 from ._results import Parameter
-from ._types import Array, Mask
+from ._types import Array, Design, Mask
 
 __all__ = [
     "RankCorrelation",
@@ -82,7 +82,7 @@ class Sensitivity:
 
 
 def sensitivities(
-    design: str,
+    design: Design,
     measure: str,
     parameters: Mapping[str, float | tuple[float, float]] | Iterable[str] | None = None,
     *,
@@ -97,10 +97,10 @@ def sensitivities(
 
     Parameters
     ----------
-    design : str
-        A preset.
+    design : str, path, dict or Grid
+        A preset, or a grid with one point.
     measure : str
-        A measure of the preset's model.
+        A measure of the design's model, or a measure that the grid defines.
     parameters : mapping or iterable of str, optional
         The parameters to change. A mapping contains, for each parameter, a relative change such as ``0.1``, or a pair
         of values in SI units. The measure is computed at both values of the pair, which can be in any order. The
@@ -123,7 +123,8 @@ def sensitivities(
     ------
     ValueError
         Raised if the design, the measure or a parameter is unknown. Raised if the change of a parameter is zero. Raised
-        if the motion of the unchanged design is not periodic.
+        if the motion of the unchanged design is not periodic. Raised if the design is a grid with several points, or
+        if the grid excludes a design or leaves out the measure.
     TypeError
         Raised if `parameters` is not a name, a list of names or a mapping.
 
@@ -140,8 +141,14 @@ def sensitivities(
     others = {name: value for name, value in fixed.items() if name not in ranges}
     free = (name for name, each in known.items() if each.is_number and name not in fixed)
     base = evaluate(design, both or {(name := next(free)): known[name].value}, **others)
-    if measure not in base:
-        raise unknown("measure", measure, measures(design))
+    if len(base) != 1:
+        count = f"{len(base)} points, but one is required" if len(base) else "no point: [where] excludes the design"
+        raise ValueError(f"the design has {count}\ngive a preset, or a grid with one point")
+    names = Data.of(base).measures()
+    if measure not in names and measure in measures(design):
+        raise ValueError(f"the rows of the grid have no `{measure}`\nadd it to `columns` under [output] of the grid")
+    if measure not in names:
+        raise unknown("measure", measure, names)
     start = float(base[measure][0])
     if math.isnan(start):
         raise ValueError(f"the unchanged design has no {measure}: its motion is {base['status'][0]}")
@@ -155,8 +162,13 @@ def sensitivities(
             raise ValueError(f"`{name}` is {value:g}, so a relative change has no effect: give the two values to run")
         unchanged = {other: given for other, given in fixed.items() if other != name}
         rows = evaluate(design, {name: np.array([below, above])}, **unchanged)
-        if parameters is None and (rows["status"] == "invalid").all():
+        if parameters is None and (len(rows) != 2 or (rows["status"] == "invalid").all()):
             continue
+        if len(rows) != 2:
+            raise ValueError(
+                f"[where] of the grid excludes the design with `{name}` = {below:g} or {above:g}\n"
+                "choose a smaller change, or remove the condition"
+            )
         low, high = (float(each) for each in rows[measure])
         units = (known[name].unit, base.units.get(measure, ""))
         found.append(Sensitivity(name, value, below, above, measure, start, low, high, *units))
@@ -189,6 +201,8 @@ def _ranges(
             raise ValueError(f"`{name}` requires two values to run, not {len(spread)}")
         with reading(f"parameters[{name!r}]", spread, "it must be a relative change, or a pair of values in SI units"):
             values = sorted(map(float, spread)) if isinstance(spread, (tuple, list)) else [float(spread)]
+        if len(values) == 2 and values[0] == values[1]:
+            raise ValueError(f"both values of `{name}` are {values[0]:g}: give two different values to run")
         if len(values) == 2:
             chosen[name] = (values[0], values[1])
         elif not 0 < values[0] < math.inf:
