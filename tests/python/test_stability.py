@@ -58,13 +58,23 @@ def test_mistakes_of_damping_and_eigenvalues_have_help():
     for mass, inertia, message in [
         (69e-6, [1e-9, 1e-9], "`body_inertia` must be a list of the three moments"),
         (69e-6, {"roll": 1e-9, "pitch": 1e-9, "yaw": 1e-9}, "`body_inertia` must be a list of the three moments"),
-        ("69 mg", [1e-9, 1e-9, 1e-9], "`total_mass` must be a number in SI units"),
+        ("69 mg", [1e-9, 1e-9, 1e-9], "`total_mass` must be a finite number in SI units"),
         (69e-6, [[1e-9] * 3, 1e-9, 1e-9], "`body_inertia` must be .* for each of the 2 rows"),
-        (np.nan, [1e-9, 1e-9, 1e-9], "not positive definite"),
-        (69e-6, [1e-9, np.inf, 1e-9], "not positive definite"),
+        (np.nan, [1e-9, 1e-9, 1e-9], "`total_mass` must be a finite number in SI units"),
+        (-1.0, [1e-9, 1e-9, 1e-9], "not positive definite"),
+        (69e-6, [1e-9, np.inf, 1e-9], "`body_inertia` must be a finite number"),
+        (69e-6, [1e-9, -1e-9, 1e-9], "not positive definite"),
     ]:
         with pytest.raises(ValueError, match=message):
             flapwing.hover_eigenvalues(rows, mass, inertia)
+    for gravity in (np.nan, "9.81 m/s^2", [9.81] * 3):
+        with pytest.raises(ValueError, match="`gravity` must be a finite number in SI units"):
+            flapwing.hover_eigenvalues(rows, 69e-6, [1e-9, 1e-9, 1e-9], gravity=gravity)
+    name = "d_force_up_mn_per_si_body_rate_yaw"
+    with pytest.raises(TypeError, match=rf"`rows\['{name}'\]` is list\nit must be numbers"):
+        flapwing.hover_eigenvalues({**rows, name: ["a", "b"]}, 69e-6, [1e-9, 1e-9, 1e-9])
+    with pytest.raises(ValueError, match="columns of the damping matrix have 2 to 3 rows\ngive each"):
+        flapwing.hover_eigenvalues({**rows, name: np.zeros(3)}, 69e-6, [1e-9, 1e-9, 1e-9])
     with pytest.raises(TypeError, match="`rows` is int"):
         flapwing.hover_eigenvalues(3, 69e-6, [1e-9, 1e-9, 1e-9])
 

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ._arguments import columns_of
+from ._arguments import columns_of, numbers
 from ._table import Table
 from ._types import Array
 
@@ -67,7 +67,7 @@ def hover_eigenvalues(
         argument is neither a number nor an array with one number for each row. Raised if the inertia of the body is not
         positive definite.
     TypeError
-        Raised if `rows` has no columns.
+        Raised if `rows` has no columns, or a column of the damping matrix is not a column of numbers.
     """
     columns = [[f"d_{of}_per_si_body_{by}" for by in _MOTION] for of in _WRENCH]
     given = columns_of("rows", rows)
@@ -77,7 +77,13 @@ def hover_eigenvalues(
             f"the rows lack {len(missing)} of the 36 columns of the damping matrix, such as `{missing[0]}`\n"
             "set damping = true in the section [vehicle] of the grid file, and sweep again"
         )
-    damping = np.array([[np.asarray(given[name], dtype=np.float64) for name in line] for line in columns])
+    listed = [[numbers(f"rows[{name!r}]", given[name], unknown=True) for name in line] for line in columns]
+    lengths = {len(values) for line in listed for values in line}
+    if len(lengths) > 1:
+        raise ValueError(
+            f"the columns of the damping matrix have {min(lengths)} to {max(lengths)} rows\ngive each one cell per row"
+        )
+    damping = np.array(listed)
     damping = np.moveaxis(damping * np.array(list(_WRENCH.values()))[:, None, None], 2, 0)
     count = len(damping)
     if isinstance(body_inertia, (str, Mapping)) or not hasattr(body_inertia, "__len__") or len(body_inertia) != 3:
@@ -86,7 +92,7 @@ def hover_eigenvalues(
     mass[:, range(3), range(3)] = _of_rows("total_mass", total_mass, count)[:, None]
     mass[:, range(3, 6), range(3, 6)] = np.stack([_of_rows("body_inertia", one, count) for one in body_inertia], axis=1)
     mass[:, 3, 5] = mass[:, 5, 3] = -_of_rows("body_inertia_product", body_inertia_product, count)
-    if not (np.isfinite(mass).all() and (np.linalg.eigvalsh(mass) > 0).all()):
+    if not (np.linalg.eigvalsh(mass) > 0).all():
         raise ValueError(
             "the mass or the inertia of the body is not positive definite\n"
             "mass and moments must be positive, and the square of body_inertia_product smaller than roll times yaw"
@@ -95,7 +101,8 @@ def hover_eigenvalues(
     states = np.zeros((count, 8, 8))
     states[:, :6, :6] = np.linalg.solve(mass, np.where(known[:, None, None], damping, 0.0))
     # A lowered nose accelerates forward, and a lifted left side accelerates to the right.
-    states[:, 0, 7], states[:, 1, 6] = gravity, -gravity
+    weight = _of_rows("gravity", gravity, count)
+    states[:, 0, 7], states[:, 1, 6] = weight, -weight
     states[:, 6, 3] = states[:, 7, 4] = 1.0
     found = np.linalg.eigvals(states).astype(np.complex128)
     found = np.take_along_axis(found, np.argsort(-found.real, axis=1, kind="stable"), axis=1)
@@ -106,8 +113,11 @@ def hover_eigenvalues(
 def _of_rows(name: str, given: Array | float, count: int) -> Array:
     """Return an argument as an array with a number for each row."""
     try:
-        return np.broadcast_to(np.asarray(given, dtype=np.float64), count)
+        values = np.broadcast_to(np.asarray(given, dtype=np.float64), count)
     except (TypeError, ValueError):
-        raise ValueError(
-            f"`{name}` must be a number in SI units, or an array with a number for each of the {count} rows"
-        ) from None
+        values = np.array([np.nan])
+    if np.isfinite(values).all():
+        return values
+    raise ValueError(
+        f"`{name}` must be a finite number in SI units, or an array with such a number for each of the {count} rows"
+    )
