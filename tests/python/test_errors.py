@@ -44,11 +44,40 @@ def test_misspelt_solver_setting():
     assert "did you mean `max_cycles`?" in refused(ValueError, PRESET, max_cycle=50)
 
 
+@pytest.mark.parametrize(
+    ("call", "wrong", "meant"),
+    [
+        (lambda **wrong: flapwing.sweep(PRESET, **wrong), "progres", "progress"),
+        (lambda **wrong: flapwing.sweep(PRESET, **wrong), "outt", "out"),
+        (lambda **wrong: flapwing.trajectory(PRESET, **wrong), "cycle", "cycles"),
+        (lambda **wrong: flapwing.respond(PRESET, **wrong), "steps", "step"),
+        (lambda **wrong: flapwing.evaluate(PRESET, {"drive_frequency": [100.0]}, **wrong), "thread", "threads"),
+    ],
+)
+def test_misspelt_argument(call, wrong, meant):
+    with pytest.raises(ValueError, match=f"no parameter `{wrong}`, did you mean `{meant}`\\?"):
+        call(**{wrong: 1})
+
+
+def test_the_drive_is_at_resonance_only_in_grids():
+    message = refused(ValueError, PRESET, drive_frequency="resonance")
+    assert message.startswith("`drive_frequency` must be a number in Hz or text with a unit here\nonly a grid")
+    assert '"params": {"drive_frequency": "resonance"}' in message
+
+
 def test_flags_of_numpy_are_no_numbers():
     for name, wanted in (("drive_frequency", "a number in Hz or text with a unit"), ("max_cycles", "a whole number")):
         assert f"`{name}` must be {wanted}, not bool" in refused(TypeError, PRESET, **{name: np.bool_(True)})
     assert flapwing.run(PRESET, newton=np.bool_(False)) == flapwing.run(PRESET, newton=False)
     assert flapwing.run(PRESET, newton=np.bool_(False)) != flapwing.run(PRESET, newton=np.bool_(True))
+
+
+def test_names_of_models_are_listed_and_suggested():
+    for call in (flapwing.params, flapwing.measures, flapwing.states):
+        with pytest.raises(ValueError, match=r"no preset or model `bimorh`, did you mean `bimorph`\?") as caught:
+            call("bimorh")
+        assert "models: bimorph, direct-drive, four-bar" in str(caught.value)
+        assert "ozaki2018-large" in str(caught.value)
 
 
 def test_unknown_option():

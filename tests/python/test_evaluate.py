@@ -183,7 +183,9 @@ def test_a_model_needs_all_its_parameters():
         (PRESET, {"lift_sign": [1.0]}, TypeError, "`lift_sign` must be one of"),
         (PRESET, {"drive_frequency": [True]}, TypeError, "`drive_frequency` must be a number in Hz"),
         (PRESET, {"drive_frequency": True}, TypeError, "`drive_frequency` must be a number"),
+        (PRESET, {"drive_frequency": [True, 105.0]}, TypeError, "`drive_frequency` must be a number in Hz"),
         (PRESET, {"drive_frequency": [np.bool_(True), 105.0]}, TypeError, "`drive_frequency` must be a number in Hz"),
+        (PRESET, {"rtol": [1e-6]}, ValueError, "`rtol` is a solver setting, not a parameter"),
         (PRESET, {"drive_frequency": [None]}, TypeError, "`drive_frequency` must be a number in Hz"),
         (
             {"preset": PRESET, "axes": {"wing_length": [0.03]}},

@@ -81,7 +81,7 @@ fn with_solver(plan: Plan, keywords: &Keywords<'_>) -> PyResult<Plan> {
 fn set(mut plan: Plan, keywords: &[Keyword<'_>]) -> PyResult<(Plan, Vec<usize>)> {
     let mut indices = Vec::new();
     for (name, value) in keywords {
-        let index = parameters::index(plan.robot(), name)?;
+        let index = parameters::index_of_keyword(value.py(), plan.robot(), name)?;
         let value = parameters::value_of(&plan.parameters()[index], value)?;
         plan = plan.with_parameter(index, value).map_err(|error| refused("set here", &error))?;
         indices.push(index);

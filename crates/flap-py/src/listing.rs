@@ -1,14 +1,16 @@
 //! Lists the parameters and measures of designs.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use flap_core::parameter::{Kind, Parameter};
 use flap_core::simulate;
 use flap_sweep::notation::text;
 use flap_sweep::plan::Robot;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 
-use crate::grid;
+use crate::{grid, parameters};
 
 /// A parameter, as a dictionary.
 #[derive(IntoPyObject)]
@@ -99,6 +101,18 @@ fn find(design: &Bound<'_, PyAny>) -> PyResult<(Robot, Vec<f64>)> {
     let model = design.extract::<String>().ok().and_then(|name| simulate::by_name(&name));
     if let Some(model) = model {
         return Ok((Robot::of_wing(model), vec![f64::NAN; model.parameters().len()]));
+    }
+    if let Some(name) = grid::name(design)?
+        && simulate::preset(&name).is_none()
+        && !Path::new(&name).exists()
+    {
+        let (presets, models) =
+            (parameters::presets(), simulate::all().iter().map(|model| model.name()).collect::<Vec<_>>());
+        let hint = parameters::did_you_mean(&name, &[&presets[..], &models[..]].concat());
+        let (presets, models) = (presets.join(", "), models.join(", "));
+        return Err(PyValueError::new_err(format!(
+            "there is no preset or model `{name}`{hint} (presets: {presets}; models: {models})"
+        )));
     }
     let plan = grid::plan(design)?;
     Ok((plan.robot().clone(), plan.point(0).values))

@@ -5,6 +5,7 @@ use flap_core::simulate::{self, Simulator};
 use flap_sweep::notation::nearest;
 use flap_sweep::notation::value::{self, UnitOf, ValueError};
 use flap_sweep::plan::Robot;
+use flap_sweep::resonance::{AT_RESONANCE, DRIVE_FREQUENCY};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyString;
@@ -37,7 +38,16 @@ pub(crate) fn find_preset(name: &Bound<'_, PyAny>) -> PyResult<(&'static dyn Sim
 
 /// Returns the index of the parameter `name`.
 pub(crate) fn index(robot: &Robot, name: &str) -> PyResult<usize> {
-    Parameter::index(robot.parameters(), name).ok_or_else(|| unknown_parameter(robot, name))
+    Parameter::index(robot.parameters(), name).ok_or_else(|| unknown_parameter(robot, name, None))
+}
+
+/// Returns the index of the parameter that a keyword argument of the user's call names.
+pub(crate) fn index_of_keyword(py: Python<'_>, robot: &Robot, name: &str) -> PyResult<usize> {
+    let Some(index) = Parameter::index(robot.parameters(), name) else {
+        let near = py.import("flapwing._mistakes")?.call_method1("near_argument", (name,))?;
+        return Err(unknown_parameter(robot, name, near.extract()?));
+    };
+    Ok(index)
 }
 
 /// Warns that a parameter of all wings of a vehicle has no effect, because each wing sets its own value.
@@ -48,6 +58,12 @@ pub(crate) fn warn_unreached(py: Python<'_>, parameter: &Parameter) -> PyResult<
 /// Returns the value of `parameter` in a design point: a number in SI units, or the index of an option.
 pub(crate) fn value_of(parameter: &Parameter, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let found = match value.cast::<PyString>() {
+        Ok(text) if parameter.name == DRIVE_FREQUENCY && text.to_cow()? == AT_RESONANCE => {
+            return Err(PyValueError::new_err(format!(
+                "`{DRIVE_FREQUENCY}` must be a number in Hz or text with a unit here\n\
+                 only a grid runs designs at resonance: {{\"preset\": ..., \"params\": {{\"{DRIVE_FREQUENCY}\": \"{AT_RESONANCE}\"}}}}"
+            )));
+        }
         Ok(text) => value::of_text(parameter, &text.to_cow()?, UnitOf::Text),
         Err(_) => value::of_number(parameter, number(parameter, value)?),
     };
@@ -90,11 +106,22 @@ fn listed(options: &[&str]) -> String {
     options.iter().map(|option| format!("\"{option}\"")).collect::<Vec<_>>().join(", ")
 }
 
-fn unknown_parameter(robot: &Robot, name: &str) -> PyErr {
+/// Returns the exception for an unknown parameter. `argument` is the argument of the user's call that is similar to
+/// `name`.
+fn unknown_parameter(robot: &Robot, name: &str, argument: Option<String>) -> PyErr {
     let parameters: Vec<&str> = robot.parameters().iter().map(|parameter| parameter.name).collect();
     let settings = solver::settings();
+    if settings.contains(&name) {
+        return PyValueError::new_err(format!(
+            "`{name}` is a solver setting, not a parameter, and applies to all points\n\
+             give it as a keyword argument, as in {name}=..."
+        ));
+    }
     // Misspelt solver settings are also reported here.
-    let hint = did_you_mean(name, &[&parameters[..], &settings[..]].concat());
+    let hint = match argument {
+        Some(argument) => format!(", did you mean `{argument}`?"),
+        None => did_you_mean(name, &[&parameters[..], &settings[..]].concat()),
+    };
     PyValueError::new_err(format!(
         "model `{}` has no parameter `{name}`{hint} (parameters: {}; solver settings: {})",
         robot.name(),

@@ -11,6 +11,9 @@ from contextlib import contextmanager
 #: Largest number of names in an error message.
 _LISTED = 12
 
+#: Smallest similarity, from 0 to 1, of a misspelt name with the argument that an error message suggests.
+_NEAR = 0.85
+
 
 class UnknownName(KeyError, ValueError):
     """The exception for an unknown name. You can catch an `UnknownName` error as a KeyError or as a ValueError."""
@@ -64,6 +67,17 @@ def raised(error: BaseException) -> str:
     except Exception:
         message = ""
     return f"{type(error).__name__}: {message:.200}" if message else type(error).__name__
+
+
+def near_argument(name: str) -> str | None:
+    """Return the argument of the user's call that is most similar to `name`, or None if no argument is similar."""
+    frame = sys._getframe()
+    while frame.f_back is not None and str(frame.f_back.f_globals.get("__name__")).startswith("flapwing."):
+        frame = frame.f_back
+    code = frame.f_code
+    arguments = code.co_varnames[code.co_posonlyargcount : code.co_argcount + code.co_kwonlyargcount]
+    near = difflib.get_close_matches(name, arguments, n=1, cutoff=_NEAR)
+    return near[0] if near else None
 
 
 def callers_level() -> int:

@@ -9,16 +9,13 @@ use super::diagnostic::Problems;
 use super::table::{self, Entry};
 use super::value;
 use crate::plan::Value;
-use crate::resonance::{AtResonance, DRIVE_FREQUENCY, Objective, Range};
+use crate::resonance::{AT_RESONANCE, AtResonance, DRIVE_FREQUENCY, Objective, Range};
 
 pub(super) const KEYS: [&str; 4] = ["of", "from", "to", "tolerance"];
 
-/// Value of the key `drive_frequency` that stands for the resonance of each design.
-pub(super) const WORD: &str = "resonance";
-
 /// Returns true if `entry` sets the drive frequency to the resonance.
 pub(super) fn sets_resonance(entry: &Entry<'_>) -> bool {
-    entry.key == DRIVE_FREQUENCY && entry.value.get_ref().as_str() == Some(WORD)
+    entry.key == DRIVE_FREQUENCY && entry.value.get_ref().as_str() == Some(AT_RESONANCE)
 }
 
 /// If the section `[params]` requests rows at the resonance of each design, returns the object that computes
@@ -42,7 +39,7 @@ pub(super) fn read(
                     section.key_span.clone(),
                     "[resonance] has no effect: the drive frequency is not \"resonance\"",
                 )
-                .help(format!("write {DRIVE_FREQUENCY} = \"{WORD}\" under [params]"));
+                .help(format!("write {DRIVE_FREQUENCY} = \"{AT_RESONANCE}\" under [params]"));
         }
         return None;
     };

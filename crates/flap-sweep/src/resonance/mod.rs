@@ -15,4 +15,4 @@ mod target;
 
 pub use driven::impulse;
 pub use rows::{AtResonance, RESONANCE_HZ, RESONANCE_MARGIN_HZ, measures};
-pub use target::{DRIVE_FREQUENCY, Objective, Range};
+pub use target::{AT_RESONANCE, DRIVE_FREQUENCY, Objective, Range};

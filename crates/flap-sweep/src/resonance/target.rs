@@ -62,6 +62,9 @@ impl Default for Range {
 /// Name of the parameter that the search for a resonance varies.
 pub const DRIVE_FREQUENCY: &str = "drive_frequency";
 
+/// Value of the drive frequency in grid files that stands for the resonance of each design.
+pub const AT_RESONANCE: &str = "resonance";
+
 /// The model whose resonance is searched, the quantity to maximise, and the range of the search.
 #[derive(Clone)]
 pub(super) struct Target {

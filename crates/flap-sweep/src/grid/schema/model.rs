@@ -10,12 +10,12 @@ use serde_json::{Map, Value, json};
 use super::sections::{self, about, capitalized};
 use crate::grid::sample::{FILE_KEYS, KEYS as SAMPLE_KEYS, METHODS, OF, distribution};
 use crate::grid::uncertainty::{CORRELATION_KEYS, VALUE_KEYS};
-use crate::grid::{gradient, output, range, resonance};
+use crate::grid::{gradient, output, range};
 use crate::notation::text;
 use crate::notation::units::prefixed;
 use crate::plan::axes::Axes;
 use crate::plan::sample::SamplePoints;
-use crate::resonance::{DRIVE_FREQUENCY, measures};
+use crate::resonance::{AT_RESONANCE, DRIVE_FREQUENCY, measures};
 use crate::table::layout::{Fixed, RUN};
 
 /// Returns JSON schemas of keys such as `n` of a range and `sd` of a distribution. The schemas of these keys
@@ -277,7 +277,7 @@ fn keyed<'p>(
 fn single(model: &'static dyn Simulator, parameter: &Parameter) -> Value {
     let value = reference(model.name(), parameter, "value");
     let uncertain = reference(model.name(), parameter, "uncertain");
-    let word = json!({"const": resonance::WORD, "description": "The drive frequency of each design is the resonance of this design."});
+    let word = json!({"const": AT_RESONANCE, "description": "The drive frequency of each design is the resonance of this design."});
     let alone = if parameter.name == DRIVE_FREQUENCY { json!({"anyOf": [value, word]}) } else { value };
     // The conditions decide. The list with the empty schema shows both forms to editors.
     json!({"anyOf": [{}, alone, uncertain], "if": {"type": "object"}, "then": uncertain, "else": alone})
