@@ -61,7 +61,17 @@ def test_impulses_beyond_half_a_turn_are_refused():
                 match=f'`{name}` is too large: .* is larger than 180 deg\ngive at most 180 deg, such as "20 deg"',
             ):
                 call(PRESET, **{name: value})
+    for call, name in ((flapwing.impulse, "amplitude"), (flapwing.resonance, "impulse")):
+        with pytest.raises(ValueError, match=f"`{name}` must not be zero"):
+            call(PRESET, **{name: "0 deg"})
     assert "(20 rad)" in str(pytest.raises(ValueError, flapwing.impulse, PRESET, amplitude=20).value)
+
+
+def test_durations_that_are_not_positive_name_their_argument():
+    with pytest.raises(ValueError, match="`duration` must be more than zero, not 0.0 s"):
+        flapwing.impulse(PRESET, duration=0)
+    with pytest.raises(ValueError, match="`spectrum_window` must be more than zero, not -1.0 s"):
+        flapwing.resonance(PRESET, spectrum_window="-1 s")
 
 
 def test_impulses_are_those_of_the_command(flap, tmp_path):
@@ -273,6 +283,18 @@ def test_forces_of_filmed_wings_are_those_of_the_command(flap, tmp_path):
         flapwing.track_wing(film, chord=0.1)
     with pytest.raises(ValueError, match="there is no column pitch_rad or pitch_deg; the file has time_s, stroke_deg"):
         flapwing.forces_along(PRESET, flapwing.track_wing(film))
+
+
+def test_records_of_several_columns_are_no_pairs():
+    for call, columns in (
+        (lambda given: flapwing.forces_along(PRESET, given), "time_s, stroke_rad and pitch_rad"),
+        (flapwing.track_wing, "time_s, root_x, root_y, tip_x and tip_y"),
+    ):
+        for given in (5, ([0.0, 1.0], [0.0, 1.0])):
+            with pytest.raises(TypeError, match=f"\nit must be a path, or columns such as {columns}$"):
+                call(given)
+    with pytest.raises(TypeError, match="it must be a path, a pair .*, or columns such as time_s and wave$"):
+        flapwing.run(PRESET, waveform=5)
 
 
 def test_forces_have_at_most_five_million_samples():

@@ -84,7 +84,8 @@ def test_designs_of_a_grid_have_a_curve_each():
         (("lift_sign",), {"start": 1, "stop": 2, "step": 1}, "is a choice"),
         (("drive_frequenc",), {}, "did you mean `drive_frequency`?"),
         ((), {"start": 100, "stop": 110, "step": 1, "drive_frequency": 3}, "is set here and followed"),
-        ((), {"start": 100, "stop": 110, "step": 1, "tolerance": 0}, "must be more than zero"),
+        ((), {"start": 100, "stop": 110, "step": 1, "tolerance": 0}, "`tolerance` must be more than zero, not 0.0 Hz"),
+        ((), {"start": 100, "stop": 110, "step": 0}, "`step` must be more than zero, not 0.0 Hz"),
     ],
 )
 def test_what_cannot_be_followed(arguments, keywords, says):

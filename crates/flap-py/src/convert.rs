@@ -35,11 +35,26 @@ pub(crate) fn number(name: &str, wanted: &str, value: &Bound<'_, PyAny>) -> PyRe
     }
 }
 
-/// Returns the size of an impulse (rad) from a number in rad or text with a unit. An impulse of more than
-/// half a turn is a `ValueError`. If `value` cannot be converted to a number, returns the error of
+/// Returns a duration in seconds from a number in seconds or text with a unit. A duration that is not more than zero
+/// is a `ValueError`. If `value` cannot be converted to a number, returns the error of [`quantity`].
+pub(crate) fn duration(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let duration = quantity(name, "s", true, value)?;
+    if duration > 0.0 {
+        return Ok(duration);
+    }
+    Err(PyValueError::new_err(format!("`{name}` must be more than zero, not {duration:?} s")))
+}
+
+/// Returns the size of an impulse (rad) from a number in rad or text with a unit. An impulse of zero or of more
+/// than half a turn is a `ValueError`. If `value` cannot be converted to a number, returns the error of
 /// [`quantity`].
 pub(crate) fn impulse(name: &str, value: &Bound<'_, PyAny>) -> PyResult<f64> {
     let amplitude = quantity(name, "rad", true, value)?;
+    if amplitude == 0.0 {
+        return Err(PyValueError::new_err(format!(
+            "`{name}` must not be zero: give a size such as \"20 deg\""
+        )));
+    }
     resonance::impulse(amplitude)
         .map_err(|error| error::with_help(format!("`{name}` is too large: {error}"), error.help))
 }

@@ -87,7 +87,7 @@ pub(crate) fn impulse<'py>(
     let stroke_rate = stroke_rate(&modes, amplitude).map_err(invalid)?;
     let frequency = first(&modes).map_err(invalid)?.frequency;
     let duration = match duration {
-        Some(duration) => convert::quantity("duration", "s", true, duration)?,
+        Some(duration) => convert::duration("duration", duration)?,
         None => CYCLES / frequency,
     };
     let per_second = frequency * f64::from(convert::count("samples", samples)?);

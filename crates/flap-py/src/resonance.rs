@@ -79,7 +79,7 @@ pub(crate) fn resonance<'py>(
     let request = FreeRequest {
         amplitude: convert::impulse("impulse", impulse)?,
         fit_cycles: convert::count("fit_cycles", fit_cycles)?,
-        spectrum_window: convert::quantity("spectrum_window", "s", true, spectrum_window)?,
+        spectrum_window: convert::duration("spectrum_window", spectrum_window)?,
         samples_per_cycle: SAMPLES,
     };
     let backend = Backend::best();

@@ -139,8 +139,8 @@ fn followed<'py>(
     }
     let index = parameters::index(plan.robot(), parameter)?;
     let parameter = &plan.parameters()[index];
-    let number = |value| number(parameter, value);
-    let steps = match [number(start)?, number(stop)?, number(step)?] {
+    let number = |argument, value| number(argument, parameter, value);
+    let steps = match [number("start", start)?, number("stop", stop)?, number("step", step)?] {
         [Some(start), Some(stop), Some(step)] => Some([start, stop, step]),
         [None, None, None] => None,
         _ => {
@@ -151,17 +151,22 @@ fn followed<'py>(
             return Err(PyValueError::new_err(message));
         }
     };
-    let tolerance = number(tolerance)?;
+    let tolerance = number("tolerance", tolerance)?;
     Along::new(plan, index, steps, tolerance, unstable).map_err(|error| impossible(&error))
 }
 
-/// Converts `value` to a number in SI units. Returns `None` for a choice, because the parameter of a response
-/// must be a number.
-fn number(parameter: &Parameter<'_>, value: Option<&Bound<'_, PyAny>>) -> PyResult<Option<f64>> {
+/// Converts the value of an argument to a number in the unit and range of a parameter. Returns `None` for a choice,
+/// because the parameter of a response must be a number.
+fn number(
+    argument: &str,
+    parameter: &Parameter<'_>,
+    value: Option<&Bound<'_, PyAny>>,
+) -> PyResult<Option<f64>> {
     match parameter.kind {
         Kind::Choice(_) => Ok(None),
         Kind::Number(_) | Kind::Following(..) => {
-            value.map(|value| parameters::value_of(parameter, value)).transpose()
+            let named = Parameter { name: argument, ..*parameter };
+            value.map(|value| parameters::value_of(&named, value)).transpose()
         }
     }
 }
@@ -192,9 +197,14 @@ pub(crate) fn edges<'py>(
     let (plan, along) = followed(design, first, steps, tolerance, false, keywords)?;
     let index = parameters::index(plan.robot(), second)?;
     let parameter = &plan.parameters()[index];
-    let [from, to, step] = second_range.each_ref().map(|value| number(parameter, value.as_ref()));
-    let limits = [from?, to?].map(|limit| limit.unwrap_or(f64::NAN));
-    let second = EdgeRange::new(&plan, &along, index, limits, step?).map_err(|error| impossible(&error))?;
+    let [from, to, step] = second_range.each_ref().map(Option::as_ref);
+    let [from, to, step] = [
+        number("edge_start", parameter, from)?,
+        number("edge_stop", parameter, to)?,
+        number("edge_step", parameter, step)?,
+    ];
+    let limits = [from, to].map(|limit| limit.unwrap_or(f64::NAN));
+    let second = EdgeRange::new(&plan, &along, index, limits, step).map_err(|error| impossible(&error))?;
     let plan = plan.following(along);
     let followed = plan.followed().zip(Responses::of(&plan));
     let (along, responses) = followed.ok_or_else(|| PyValueError::new_err("no parameter is followed"))?;

@@ -80,17 +80,20 @@ def refuse_missing(name: str, values: Any) -> None:
         )
 
 
-def record(name: str, given: Any, heading: str) -> str | dict[str, Any]:
+def record(name: str, given: Any, *headings: str) -> str | dict[str, Any]:
     """If a waveform or a motion is given as the path of a file, return the path. Otherwise return the columns as a
-    dictionary of arrays. If a pair of arrays is given, `heading` is the name of the second array in the dictionary.
+    dictionary of arrays. A record with one column besides the time can also be a pair of arrays. `headings` are the
+    names of the columns besides the time, as examples.
     """
     if isinstance(given, (str, os.PathLike)):
         return os.fspath(given)
-    if isinstance(given, tuple):
+    is_pair = len(headings) == 1
+    if is_pair and isinstance(given, tuple):
         if len(given) != 2:
             raise ValueError(f"`{name}` has {len(given)} arrays\nit must have two: times (s) and values")
-        given = {"time_s": given[0], heading: given[1]}
-    allowed = f"it must be a path, a pair (times, values), or columns such as time_s and {heading}"
+        given = {"time_s": given[0], headings[0]: given[1]}
+    forms = "a path, a pair (times, values)," if is_pair else "a path,"
+    allowed = f"it must be {forms} or columns such as {', '.join(['time_s', *headings[:-1]])} and {headings[-1]}"
     if not isinstance(given, Mapping) and not _is_table(name, given, allowed):
         raise refused(name, given, allowed)
     columns = columns_of(name, given)

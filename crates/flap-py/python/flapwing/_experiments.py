@@ -181,7 +181,7 @@ def forces_along(
     """
     native = _flapwing.forces_along(
         design,
-        _arguments.record("motion", motion, "stroke_rad"),
+        _arguments.record("motion", motion, "stroke_rad", "pitch_rad"),
         dict(keywords),
         point=point,
         periodic=_arguments.flag("periodic", periodic),
@@ -236,5 +236,7 @@ def track_wing(points: Record, /, *, chord: SupportsFloat | None = None) -> Tabl
     >>> flapwing.track_wing(film)["stroke_deg"].round(1)
     array([-28.6, -14.3,   0. ,  14.3,  28.6])
     """
-    native = _flapwing.track_wing(_arguments.record("points", points, "stroke_rad"), chord=chord)
+    native = _flapwing.track_wing(
+        _arguments.record("points", points, "root_x", "root_y", "tip_x", "tip_y"), chord=chord
+    )
     return Table._of(native)
