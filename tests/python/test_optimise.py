@@ -76,6 +76,8 @@ def test_mistakes_are_told():
         flapwing.optimise(GRID, maximise="lift")
     with pytest.raises(ValueError, match='where "stroke_pp_deg < 60 V": `V` is a voltage'):
         flapwing.optimise(GRID, maximise="lift_mean_mn", where="stroke_pp_deg < 60 V")
+    with pytest.raises(ValueError, match="no point of the grid has a periodic motion with finite values of the goal"):
+        flapwing.optimise(GRID, maximise="1 / (lift_mean_mn - lift_mean_mn)")
     with pytest.raises(ValueError, match="the grid varies no parameter"):
         flapwing.optimise("ozaki2018-large", maximise="lift_mean_mn")
     with pytest.raises(TypeError, match="`maximise` is int"):

@@ -131,6 +131,8 @@ def test_meta_tells_what_the_rows_are():
 def test_where_grids_go_wrong():
     with pytest.raises(flapwing.GridError):
         flapwing.sweep({"preset": "ozaki"})
+    with pytest.raises(ValueError, match="`measures` is empty\nleave it out for all measures"):
+        flapwing.sweep(QUICK, measures=[])
     with pytest.raises(ValueError, match="give out"):
         flapwing.sweep(QUICK, restart=True)
     with pytest.raises(ValueError, match="`threads` must be from 1"):

@@ -58,7 +58,10 @@ pub(crate) fn optimise<'py>(
     watch.ended()?;
     let best = found.map_err(|error| error::run(&error))?;
     let best = best.ok_or_else(|| {
-        PyValueError::new_err("no point of the grid has a periodic motion: `sweep` has the status of each")
+        PyValueError::new_err(
+            "no point of the grid has a periodic motion with finite values of the goal and the conditions\n\
+             `sweep` returns the status and the measures of each point",
+        )
     })?;
     into_python(py, &problem, &best)
 }

@@ -108,7 +108,10 @@ def sweep(
     >>> len(rows), rows.counts
     (6, {'periodic': 6})
     """
-    checked = _with_keywords(design, keywords, _arguments.measures(measures))
+    chosen = _arguments.measures(measures)
+    if chosen == []:
+        raise ValueError('`measures` is empty\nleave it out for all measures, or give names such as ["lift_mean_mn"]')
+    checked = _with_keywords(design, keywords, chosen)
     given: dict[str, Any] = {
         "out": out,
         "restart": _arguments.flag("restart", restart),
