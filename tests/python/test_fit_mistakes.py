@@ -29,7 +29,7 @@ def changed(**columns):
         ),
         (
             changed(stroke_pp_deg=[60, 62, np.nan, 59]),
-            "set 1, column `stroke_pp_deg`, row 3 is nan, but readings must be finite numbers\nremove the row",
+            "set 1, column `stroke_pp_deg`, row 3 is nan, but must be a finite number\nremove the row",
         ),
         (
             changed(stroke_pp_deg=[60, 62, None, 59]),
@@ -75,7 +75,7 @@ def changed(**columns):
         ),
         (
             changed(stroke_pp_deg=["60", "", "61", "59"]),
-            "set 1, column `stroke_pp_deg`, row 2: the cell is empty, but a reading needs a number\nremove the row",
+            "set 1, column `stroke_pp_deg`, row 2: the cell is empty, but a number is required\nremove the row",
         ),
         (
             changed(stroke_pp_deg=["60", "n/a", "61", "59"]),
@@ -83,7 +83,7 @@ def changed(**columns):
         ),
         (
             changed(drive_frequency=[90.0, np.nan, 110.0, 120.0]),
-            "set 1, column `drive_frequency`, row 2 is nan, but readings must be finite numbers\nremove the row",
+            "set 1, column `drive_frequency`, row 2 is nan, but must be a finite number\ncorrect the cell",
         ),
         (
             changed(drive_frequency=[90.0, 100.0, -100.0, 120.0]),
@@ -103,7 +103,7 @@ def changed(**columns):
         ),
         (
             changed(stroke_pp_deg=[60, np.inf, 61, 59]),
-            "set 1, column `stroke_pp_deg`, row 2 is inf, but readings must be",
+            "set 1, column `stroke_pp_deg`, row 2 is inf, but must be a finite number",
         ),
         (
             {"drive_frequency": [90.0, 100.0], "stroke_pp_deg": [60.0, 60.0]},
@@ -123,7 +123,7 @@ def changed(**columns):
         ),
         (
             changed(stroke_pp_deg_sigma=[1, np.nan, 1, 1]),
-            "set 1, column `stroke_pp_deg_sigma`, row 2 is nan, but readings must be finite numbers\n",
+            "set 1, column `stroke_pp_deg_sigma`, row 2 is nan, but must be a finite number\n",
         ),
         (
             flapwing.Readings(DATA, sigma={"lift_mean_mn": 0.1}, name="Monday"),
@@ -368,10 +368,12 @@ def test_what_results_refuse():
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120, "drag_coefficient_max": 3}, "stroke_pp_deg"), "points has `drag_coefficient_max`, which was fitted\nleave it out"),
         (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "stroke_pp_deg", data_set="x"), "there is no data set 'x'\nchoose among set 1"),
         (lambda: found.predict({}, "stroke_pp_deg"), "points has no points\n"),
+        (lambda: found.predict({"drive_frequency": [np.nan], "drive_voltage_pp": 120}, "stroke_pp_deg"), "points, column `drive_frequency`, row 1 is nan, but must be a finite number\ncorrect the cell, or remove the row"),
+        (lambda: found.predict({"drive_frequency": [100], "drive_voltage_pp": 120}, "lift_mean_mn", reading=True), "the data have no readings of `lift_mean_mn`, so their standard error is unknown\nchoose among stroke_pp_deg, or leave out `reading`"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_min"), "`drag_coefficient_min` was not fitted\nchoose among drag_coefficient_max"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, {"drive_frequency": 3}), "`target` must be a parameter"),
         (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", count=0), "`count` must be 1 or more, not 0"),
-        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", measures=["lift_mean_mn"]), "the data have no readings of `lift_mean_mn`"),
+        (lambda: found.next_measurements({"drive_frequency": [100], "drive_voltage_pp": 120}, "drag_coefficient_max", measures=["lift_mean_mn"]), "choose among stroke_pp_deg, or give sigma={'lift_mean_mn': ...}"),
     ]:  # fmt: skip
         with pytest.raises(ValueError) as caught:
             call()

@@ -121,14 +121,15 @@ def sigma_cells(names: Names, place: str, header: str, meaning: Meaning, cells: 
 
 def _numbers(place: str, header: str, meaning: Meaning, cells: list[Any], read: Callable[[str], float]) -> Array:
     found = []
+    help = _IMPOSSIBLE if meaning.kind == "parameter" else _MISSING
     for row, cell in enumerate(cells):
         where = f"{place}, column `{header}`, row {row + 1}"
         if not isinstance(cell, str) or _is_number(cell):
-            found.append(meaning.factor * _number(where, cell))
+            found.append(meaning.factor * _number(where, cell, help))
         elif not cell.strip():
-            raise ValueError(f"{where}: the cell is empty, but a reading needs a number\n{_MISSING}")
+            raise ValueError(f"{where}: the cell is empty, but a number is required\n{help}")
         elif not _NUMBER.match(cell):
-            raise ValueError(f"{where}: {cell!r} is not a number\nwrite a number, or text with a unit; or {_MISSING}")
+            raise ValueError(f"{where}: {cell!r} is not a number\nwrite a number, or text with a unit; or {help}")
         else:
             try:
                 found.append(read(cell))
@@ -145,9 +146,9 @@ def _is_number(text: str) -> bool:
     return True
 
 
-def _number(where: str, cell: Any) -> float:
+def _number(where: str, cell: Any, help: str) -> float:
     if isinstance(cell, (bool, np.bool_)) or cell is None:
-        raise ValueError(f"{where} is {cell}, which is not a number\n{_MISSING}")
+        raise ValueError(f"{where} is {cell}, which is not a number\n{help}")
     try:
         number = float(cell)
     except OverflowError:
@@ -158,5 +159,5 @@ def _number(where: str, cell: Any) -> float:
         found = f"{type(cell).__name__}, which raised {raised(error)}"
         raise TypeError(f"{where} is {found}\nwrite a number, or text with a unit") from error
     if not np.isfinite(number):
-        raise ValueError(f"{where} is {number}, but readings must be finite numbers\n{_MISSING}")
+        raise ValueError(f"{where} is {number}, but must be a finite number\n{help}")
     return number

@@ -147,7 +147,7 @@ class Fit(Solution):
             readings of the measure. Raised if `reading` is True, `data_set` is not given, and data sets have different
             standard errors of the measure.
         """
-        noise = self._noise(measure, {}, data_set) if _arguments.flag("reading", reading) else None
+        noise = self._noise(measure, None, data_set) if _arguments.flag("reading", reading) else None
         given = self._points("points", points)
         place = 0 if data_set is None else self._place(data_set)
         like = None if data_set is None else self._sets[place]
@@ -277,20 +277,22 @@ class Fit(Solution):
         """
         _device.write(self, path, data_set, _arguments.flag("overwrite", overwrite))
 
-    def _noise(self, measure: str, sigma: Mapping[str, Any], data_set: str | None = None) -> Noise:
+    def _noise(self, measure: str, sigma: Mapping[str, Any] | None, data_set: str | None = None) -> Noise:
         """Return the standard error of new readings of a measure: a given standard error, or a typical standard error
         of the data. Raise ValueError if `data_set` is None and the data sets have different standard errors of the
         measure.
         """
         self._model.names.check_measure(measure)
-        if measure in sigma:
+        if sigma is not None and measure in sigma:
             return parse_noise("sigma", sigma[measure], measure, self._model.names.unit(measure))
         found = {one.name: one.noise[measure] for one in self._sets if measure in one.noise}
         if not found:
             known = dict.fromkeys(measure for one in self._sets for measure in one.noise)
+            # Only `next_measurements` has the argument `sigma`.
+            remedy = ", or leave out `reading`" if sigma is None else f", or give sigma={{{measure!r}: ...}}"
             raise ValueError(
                 f"the data have no readings of `{measure}`, so their standard error is unknown\n"
-                f"choose among {', '.join(known)}, or give next_measurements(..., sigma={{{measure!r}: ...}})"
+                f"choose among {', '.join(known)}{remedy}"
             )
         typical = {name: Noise(noise.kind, float(np.median(noise.size))) for name, noise in found.items()}
         if data_set is None and len(set(typical.values())) > 1:
