@@ -90,3 +90,9 @@ def test_progress_is_counted():
     seen = []
     flapwing.optimise(GRID, maximise="lift_mean_mn", progress=lambda done, points: seen.append((done, points)))
     assert seen[-1] == (24 + 8, 24 + 8) and all(done <= points == 24 + 8 for done, points in seen)
+
+
+def test_the_text_of_an_optimum_is_short():
+    best = flapwing.optimise(GRID, maximise="lift_mean_mn", starts=1)
+    assert repr(best).startswith(f"<flapwing.Optimum, {best.status}: lift_mean_mn = {best.value:.6g} at ")
+    assert f"drive_frequency={best.values['drive_frequency']:.6g}" in repr(best) and len(repr(best)) < 300

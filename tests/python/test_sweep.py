@@ -85,6 +85,7 @@ def test_rows_in_a_file_are_read_when_they_are_asked_for(tmp_path, monkeypatch):
     assert table.meta["counts"] == {"periodic": 26} and list(table.axes[0]) == ["drive_frequency"]
     with pytest.raises(FileNotFoundError):
         table["lift_mean_mn"]
+    assert repr(table).startswith("<flapwing.Table, whose rows cannot be read: FileNotFoundError: cannot read ")
     (tmp_path / "elsewhere.csv").rename(tmp_path / "rows.csv")
     monkeypatch.chdir("/")
     assert len(table["lift_mean_mn"]) == 26

@@ -418,6 +418,10 @@ class Optimum(_Result):
     is_polished: bool
     device: str
 
+    def __repr__(self) -> str:
+        found = ", ".join(f"{name}={cell_text(value)}" for name, value in self.values.items())
+        return f"<flapwing.Optimum, {self.status}: {self.goal} = {self.value:.6g} at {found}>"
+
 
 @dataclass(frozen=True, eq=False)
 class BistableBand(_Result):

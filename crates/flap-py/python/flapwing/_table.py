@@ -297,6 +297,11 @@ class Table:
         return _columns.to_xarray(self._columns, self.axes, self.meta)
 
     def __repr__(self) -> str:
+        try:
+            self._columns
+        except Exception as error:
+            # The rows are in a file that is missing or has changed.
+            return f"<flapwing.Table, whose rows cannot be read: {raised(error)}>"
         counts = ", ".join(f"{count} {status}" for status, count in self.counts.items())
         statuses = f" ({counts})" if counts else ""
         names = list(self._columns)
