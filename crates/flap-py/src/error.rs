@@ -130,9 +130,7 @@ pub(crate) fn job(error: &JobError) -> PyErr {
             PyFileExistsError::new_err(format!("{error}{changed}: {remedy}"))
         }
         JobError::Resume { error, changed, .. } => resume(error, changed.as_deref()),
-        JobError::Open(OpenError::Read { path, source }) => {
-            io_error(&format!("cannot read {}", path.display()), source)
-        }
+        JobError::Open(OpenError::Read { path, source }) => unreadable(path.display(), source),
         JobError::Open(_) => {
             PyValueError::new_err(format!("{error}: start over with restart=True, or choose another file"))
         }
@@ -171,9 +169,8 @@ fn resume(error: &ResumeError, changed: Option<&str>) -> PyErr {
 /// Returns the exception for results that cannot be read.
 pub(crate) fn open(error: &OpenError) -> PyErr {
     match error {
-        OpenError::Read { path, source } => io_error(&format!("cannot read {}", path.display()), source),
-        OpenError::Sidecar(sidecar::SidecarError::Io { path, source }) => {
-            io_error(&format!("cannot read {}", path.display()), source)
+        OpenError::Read { path, source } | OpenError::Sidecar(sidecar::SidecarError::Io { path, source }) => {
+            unreadable(path.display(), source)
         }
         OpenError::Format(_) => PyValueError::new_err(error.to_string()),
         OpenError::Sidecar(_) | OpenError::Damaged { .. } => {
@@ -182,8 +179,18 @@ pub(crate) fn open(error: &OpenError) -> PyErr {
     }
 }
 
+/// Returns the exception for a file that cannot be read.
+pub(crate) fn unreadable(path: impl Display, error: &io::Error) -> PyErr {
+    match error.kind() {
+        io::ErrorKind::NotFound => {
+            PyFileNotFoundError::new_err(format!("cannot read {path}: there is no such file"))
+        }
+        _ => io_error(&format!("cannot read {path}"), error),
+    }
+}
+
 /// Returns the exception that Python raises for the given error of the operating system.
-pub(crate) fn io_error(what: &str, error: &io::Error) -> PyErr {
+fn io_error(what: &str, error: &io::Error) -> PyErr {
     let message = format!("{what}: {error}");
     match error.kind() {
         io::ErrorKind::NotFound => PyFileNotFoundError::new_err(message),

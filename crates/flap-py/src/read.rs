@@ -70,7 +70,7 @@ struct Origin {
 
 fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
     let place = path.display();
-    let unreadable = |error| error::io_error(&format!("cannot read {place}"), &error);
+    let unreadable = |error| error::unreadable(&place, &error);
     let open = || integrity::open(path, on_damage).map_err(|error| error::open(&error));
     let Opened { mut reader, sidecar, notes } = open()?;
     let origin = origin(sidecar, &reader);

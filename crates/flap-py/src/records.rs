@@ -71,7 +71,7 @@ pub(crate) fn samples(record: &Record, quantity: &Quantity<'_>, repeat: Repeat) 
 /// Returns the exception for a record of values over time that cannot be used.
 pub(crate) fn refused(error: &RecordError) -> PyErr {
     match error {
-        RecordError::Read { name, source } => error::io_error(&format!("cannot read {name}"), source),
+        RecordError::Read { name, source } => error::unreadable(name, source),
         other => PyValueError::new_err(other.to_string()),
     }
 }
