@@ -129,6 +129,13 @@ def test_meta_tells_what_the_rows_are():
     assert np.isnan(table["lift_mean_mn"][table["status"] == "unsettled"]).all()
 
 
+@pytest.mark.parametrize("name", ["rows.csv", "rows.parquet"])
+def test_reasons_of_invalid_rows_are_read_from_a_file(tmp_path, name):
+    table = flapwing.sweep(GRID, out=tmp_path / name)
+    assert len(table.meta["invalid"]) == table.counts["invalid"] > 0
+    assert flapwing.read(tmp_path / name).meta["invalid"] == table.meta["invalid"]
+
+
 def test_where_grids_go_wrong():
     with pytest.raises(flapwing.GridError):
         flapwing.sweep({"preset": "ozaki"})

@@ -2,7 +2,7 @@
 
 use std::io;
 
-use flap_sweep::run::{Sink, Summary, Unsatisfied};
+use flap_sweep::run::{InvalidPoint, Sink, Summary, Unsatisfied};
 use flap_sweep::table::labels::split_unit;
 use flap_sweep::table::layout::{Cell, CellKind, Column};
 use numpy::PyArray1;
@@ -122,10 +122,13 @@ pub(crate) fn summary<'py>(py: Python<'py>, summary: &Summary) -> PyResult<Bound
     dict.set_item("unsatisfied", unsatisfied(py, &summary.unsatisfied)?)?;
     dict.set_item("cycles", summary.cycles)?;
     dict.set_item("rhs_evals", summary.rhs_evals)?;
-    let invalid: Vec<(u64, &str)> =
-        summary.invalid.iter().map(|invalid| (invalid.point, invalid.reason.as_str())).collect();
-    dict.set_item("invalid", invalid)?;
+    dict.set_item("invalid", reasons(&summary.invalid))?;
     Ok(dict)
+}
+
+/// Returns the indices of invalid points, each with the reason why the point is invalid.
+pub(crate) fn reasons(invalid: &[InvalidPoint]) -> Vec<(u64, &str)> {
+    invalid.iter().map(|invalid| (invalid.point, invalid.reason.as_str())).collect()
 }
 
 /// Returns a dictionary of the conditions of a plan, each with the number of points that do not satisfy the condition.

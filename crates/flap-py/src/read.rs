@@ -9,8 +9,8 @@ use flap_sweep::files::integrity::{self, Note, OnDamage, Opened};
 use flap_sweep::files::results::{Reader, Recorded, RowCheck};
 use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::plan::Plan;
-use flap_sweep::run::RunOptions;
 use flap_sweep::run::identity::Identity;
+use flap_sweep::run::{InvalidPoint, RunOptions};
 use flap_sweep::table::layout::{CellKind, Column, Layout};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -32,12 +32,15 @@ pub(crate) fn read(py: Python<'_>, path: PathBuf, ignore_damage: bool) -> PyResu
     dict.set_item("units", units)?;
     dict.set_item("warnings", warnings)?;
     dict.set_item("verified", is_verified)?;
-    if let Some(Origin { plan, flap, build, arithmetic }) = origin {
+    if let Some(Origin { plan, flap, build, arithmetic, invalid }) = origin {
         let meta = sweep::meta(py, &plan, &RunOptions::default())?;
         // Another version on another machine may have written the rows.
         meta.set_item("flap", flap)?;
         meta.set_item("build", build)?;
         meta.set_item("arithmetic", arithmetic)?;
+        if let Some(invalid) = invalid {
+            meta.set_item("invalid", columns::reasons(&invalid))?;
+        }
         dict.set_item("meta", meta)?;
         // The rows of curves form no grid.
         if plan.followed().is_none() {
@@ -66,6 +69,8 @@ struct Origin {
     flap: String,
     build: String,
     arithmetic: String,
+    /// The first few invalid points, if the file has a sidecar and the sweep has ended.
+    invalid: Option<Vec<InvalidPoint>>,
 }
 
 fn read_columns(path: &Path, on_damage: OnDamage) -> PyResult<Contents> {
@@ -114,7 +119,8 @@ fn origin(sidecar: Option<Sidecar>, reader: &Reader) -> Option<Origin> {
 fn beside(sidecar: Sidecar) -> Option<Origin> {
     let plan = sidecar.plan(simulate::all()).ok()?;
     let Identity { flap, build, arithmetic, .. } = sidecar.identity;
-    Some(Origin { plan, flap, build, arithmetic })
+    let invalid = sidecar.summary.map(|summary| summary.invalid);
+    Some(Origin { plan, flap, build, arithmetic, invalid })
 }
 
 fn inside(reader: &Reader) -> Option<Origin> {
@@ -122,7 +128,7 @@ fn inside(reader: &Reader) -> Option<Origin> {
     let plan = recorded.plan(simulate::all())?;
     let [flap, build, arithmetic] =
         ["flap", "flap.build", "flap.arithmetic"].map(|key| recorded.text(key).to_owned());
-    Some(Origin { plan, flap, build, arithmetic })
+    Some(Origin { plan, flap, build, arithmetic, invalid: None })
 }
 
 /// Returns the columns of a file that contains no plan of its rows. The cells of each column determine the

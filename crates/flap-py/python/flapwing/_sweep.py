@@ -155,7 +155,8 @@ def read(path: str | os.PathLike[str], /, *, ignore_damage: bool = False) -> Tab
     Table
         The rows of the file. Numbers are equal, to the last bit, to the numbers that were written. ``meta["verified"]``
         is True if the checksums agree with the rows. ``meta["verified"]`` is False for unfinished or damaged results,
-        and for results without checksums.
+        and for results without checksums. For a finished sweep with a sidecar, ``meta["invalid"]`` has the first few
+        invalid points, each with the reason why the point is invalid.
 
     Raises
     ------
