@@ -269,6 +269,24 @@ fn a_flight_begins_with_any_yaw() {
     }
 }
 
+/// The yaw angle is the integral of the yaw rate, also if the body turns more than once in a wing beat.
+#[test]
+fn fast_turns_change_the_yaw_by_their_rate() {
+    let heavy = plan(&ROBOT.replace("0.5e-9", "5e-8").replace("1.5e-9", "5e-8"));
+    for (rate, samples) in [(400.0, None), (-400.0, None), (1800.0, None), (1800.0, Some(2))] {
+        let request = FlightRequest { seconds: 0.06, samples, ..disturbed(5, rate) };
+        let record = flown(&heavy, &request);
+        let [time, yaw_rate, yaw] = ["time_s", "rate_yaw_rad_s", "angle_yaw_rad"]
+            .map(|name| record.columns.iter().position(|column| column == name).unwrap());
+        for two in record.rows.windows(2) {
+            let change = two[1][yaw] - two[0][yaw];
+            let mean = f64::midpoint(two[0][yaw_rate], two[1][yaw_rate]);
+            let expected = mean * (two[1][time] - two[0][time]);
+            assert!((change - expected).abs() < 0.02 * expected.abs(), "{rate}: {change}, not {expected}");
+        }
+    }
+}
+
 /// Both kinds of flight end at the first beat for which an input is out of range.
 #[test]
 fn flights_end_where_an_input_leaves_its_range() {

@@ -234,8 +234,9 @@ struct Coupled<'a> {
     /// The states of the wings, the states of the body, and the integrals since the beginning of the beat.
     y: Vec<f64>,
     integrator: Integrator<'a>,
-    /// The latest yaw angle (rad). The angle does not jump after a full turn of the body.
-    heading: f64,
+    /// The yaw angles (rad) at the beginning of the beat and now. The angle does not jump after half a turn of
+    /// the body.
+    headings: [f64; 2],
 }
 
 /// Equations of the coupled motion of wings and body.
@@ -266,12 +267,11 @@ impl<'a> Coupled<'a> {
         let inverse = inverse_mass(&body)?.fixed_view::<3, 3>(3, 3).into_owned();
         let equations = Equations { wings, of_wings, body, inertia: inertia(&body), inverse };
         let mut coupled =
-            Coupled { vehicle_run, values, inputs, equations, y: Vec::new(), integrator, heading: 0.0 };
+            Coupled { vehicle_run, values, inputs, equations, y: Vec::new(), integrator, headings: [0.0; 2] };
         coupled.begin(&settled, &[0.0; FED_BACK]);
         let diverges = |_| ControlError::from(Unfinished::from(Invalid::new("the motion diverges")));
         let vibration = coupled.vibration().map_err(diverges)?;
         coupled.begin(&settled, &core::array::from_fn(|i| disturbance[i] - vibration[i]));
-        coupled.heading = disturbance[8];
         Ok(coupled)
     }
 
@@ -280,6 +280,7 @@ impl<'a> Coupled<'a> {
     fn begin(&mut self, wings: &[f64], body: &[f64; FED_BACK]) {
         let [roll, pitch, yaw] = [body[6], body[7], body[8]];
         let attitude = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
+        self.headings = [yaw; 2];
         self.y = wings.to_vec();
         self.y.extend(&body[..6]);
         self.y.extend([attitude.w, attitude.i, attitude.j, attitude.k]);
@@ -294,24 +295,17 @@ impl<'a> Coupled<'a> {
     fn vibration(&mut self) -> Result<[f64; FED_BACK], String> {
         let period = self.period();
         self.advance(0.0, period)?;
-        let end = self.body(&self.y[self.equations.of_wings..]);
+        let end = body_states(&self.y[self.equations.of_wings..], self.headings[1]);
         let mean = self.means(period);
         Ok(core::array::from_fn(|i| mean[i] - 0.5 * end[i]))
-    }
-
-    /// Converts the integrated states of the body, with a quaternion, to the states in [`STATES`], with
-    /// angles.
-    fn body(&self, body: &[f64]) -> [f64; 12] {
-        let attitude = UnitQuaternion::from_quaternion(quaternion(&body[6..10]));
-        let (roll, pitch, yaw) = attitude.euler_angles();
-        let yaw = yaw + TAU * ((self.heading - yaw) / TAU).round();
-        [body[0], body[1], body[2], body[3], body[4], body[5], roll, pitch, yaw, body[10], body[11], body[12]]
     }
 
     /// Returns the mean states over a wing beat. The mean angles are computed from the mean quaternion.
     fn means(&self, period: f64) -> [f64; 12] {
         let integrals = &self.y[self.equations.of_wings + BODY..];
-        self.body(&integrals[..BODY].iter().map(|integral| integral / period).collect::<Vec<f64>>())
+        let means: Vec<f64> = integrals[..BODY].iter().map(|integral| integral / period).collect();
+        let [begin, end] = self.headings;
+        body_states(&means, f64::midpoint(begin, end))
     }
 }
 
@@ -321,14 +315,17 @@ impl Motion for Coupled<'_> {
     }
 
     fn advance(&mut self, from: f64, to: f64) -> Result<(), String> {
-        self.integrator.advance(&self.equations, [from, to], &mut self.y)
+        let attitude = self.equations.of_wings + 6..self.equations.of_wings + 10;
+        let heading = &mut self.headings[1];
+        self.integrator.advance(&self.equations, [from, to], &mut self.y, |y| {
+            *heading = angles(&y[attitude.clone()], *heading)[2];
+        })
     }
 
     fn state(&mut self, time: f64) -> BodyState {
         let mut slope = vec![0.0; self.y.len()];
         self.equations.derivative(time, &self.y, &mut slope);
-        let states = self.body(&self.y[self.equations.of_wings..]);
-        self.heading = states[8];
+        let states = body_states(&self.y[self.equations.of_wings..], self.headings[1]);
         let wrench = slope.len() - 6;
         BodyState { states, wrench: core::array::from_fn(|i| slope[wrench + i]) }
     }
@@ -336,7 +333,7 @@ impl Motion for Coupled<'_> {
     fn end_beat(&mut self) -> BodyState {
         let period = self.period();
         let states = self.means(period);
-        self.heading = states[8];
+        self.headings[0] = self.headings[1];
         let wrench = self.y.len() - 6;
         let wrench = core::array::from_fn(|i| self.y[wrench + i] / period);
         // Rounding and errors of integration change the length of the quaternion.
@@ -360,6 +357,20 @@ impl Motion for Coupled<'_> {
 /// Returns the quaternion with the components w, x, y and z.
 fn quaternion(numbers: &[f64]) -> Quaternion<f64> {
     Quaternion::new(numbers[0], numbers[1], numbers[2], numbers[3])
+}
+
+/// Returns the roll, pitch and yaw angles (rad) of an attitude with the components w, x, y and z. The yaw
+/// angle differs by at most half a turn from `heading`.
+fn angles(attitude: &[f64], heading: f64) -> [f64; 3] {
+    let (roll, pitch, yaw) = UnitQuaternion::from_quaternion(quaternion(attitude)).euler_angles();
+    [roll, pitch, yaw + TAU * ((heading - yaw) / TAU).round()]
+}
+
+/// Converts the integrated states of the body, with a quaternion, to the states in [`STATES`], with angles. The
+/// yaw angle differs by at most half a turn from `heading`.
+fn body_states(body: &[f64], heading: f64) -> [f64; 12] {
+    let [roll, pitch, yaw] = angles(&body[6..10], heading);
+    [body[0], body[1], body[2], body[3], body[4], body[5], roll, pitch, yaw, body[10], body[11], body[12]]
 }
 
 impl Equations {
@@ -402,12 +413,14 @@ struct Integrator<'a> {
 }
 
 impl Integrator<'_> {
-    /// Integrates `y` between two times (s). The error value describes why the integration failed.
+    /// Integrates `y` between two times (s). After each step, `after` is called with the new states. The error
+    /// value describes why the integration failed.
     fn advance(
         &mut self,
         equations: &Equations,
         [from, to]: [f64; 2],
         y: &mut Vec<f64>,
+        mut after: impl FnMut(&[f64]),
     ) -> Result<(), String> {
         let SolverSettings { rtol, atol, .. } = *self.solver;
         let counted = self.scale.iter().filter(|scale| scale.is_finite()).count() as f64;
@@ -445,6 +458,7 @@ impl Integrator<'_> {
                 continue;
             }
             core::mem::swap(y, &mut next);
+            after(y);
             k.swap(0, STAGES - 1);
             if is_last {
                 // The last step may be short.
