@@ -233,11 +233,12 @@ impl WrenchMap {
             let errors = computed.iter().zip(&exact).map(|(computed, exact)| computed[component] - exact);
             let errors: Vec<f64> = errors.collect();
             map.largest_error[component] = errors.iter().fold(0.0, |one: f64, error| one.max(error.abs()));
-            let spread = exact.iter().fold(0.0, |one: f64, exact| one.max((exact - mean).abs()));
+            let all = wrenches.iter().map(|wrench| wrench[component]);
+            let spread = all.fold(0.0, |one: f64, value| one.max((value - mean).abs()));
             if spread > CONSTANT * largest {
                 let total: f64 = exact.iter().map(|exact| (exact - mean) * (exact - mean)).sum();
                 let squares: f64 = errors.iter().map(|error| error * error).sum();
-                map.r_squared[component] = 1.0 - squares / total;
+                map.r_squared[component] = 1.0 - squares / total.max(f64::MIN_POSITIVE);
             }
         }
         Some(map)
@@ -525,6 +526,20 @@ mod tests {
                 "the input `s` changes neither force nor torque"
             ]
         );
+    }
+
+    /// A component is constant only if all rows are constant.
+    #[test]
+    fn a_component_that_is_constant_in_the_tested_rows_is_poor() {
+        let inputs = vec![MapInput { name: "s".to_owned(), parameter: 0, from: -1.0, to: 1.0 }];
+        let points: Vec<Vec<f64>> = (0..10).map(|index| vec![f64::from(index) / 4.5 - 1.0]).collect();
+        let mut wrenches = vec![[0.0; 6]; 10];
+        wrenches[2][0] = 3.0;
+        wrenches[7][0] = -1.0;
+        let map = WrenchMap::fitted_to(inputs, &points, &wrenches).unwrap();
+        assert!(map.r_squared[0] < 0.0, "{}", map.r_squared[0]);
+        assert!(map.r_squared[1].is_nan());
+        assert!(map.warnings()[0].ends_with("for force_forward_mn: choose narrower ranges"));
     }
 
     #[test]
