@@ -389,15 +389,22 @@ impl VehicleRun<'_> {
         step: f64,
         row: &Row,
     ) -> Result<[f64; 6], ControlError> {
+        let (rtol, atol) =
+            (self.solver.rtol.min(DIFFERENCE_RTOL), self.solver.atol.min(DIFFERENCE_RTOL / 100.0));
+        let fine = VehicleRun { solver: &SolverSettings { rtol, atol, ..*self.solver }, ..*self };
         let side = |by: f64| {
             let mut values = values.to_vec();
             values[input.parameter] += by;
-            self.settled(&values, Some(&row.state)).map(|row| self.wrench(&row))
+            fine.settled(&values, Some(&row.state)).map(|row| self.wrench(&row))
         };
         let (ahead, behind) = (side(step)?, side(-step)?);
         Ok(core::array::from_fn(|i| (ahead[i] - behind[i]) / (2.0 * step)))
     }
 }
+
+/// Largest relative tolerance of the integrator for the rows of central differences. The difference of two
+/// rows has a larger relative error than each of the rows.
+const DIFFERENCE_RTOL: f64 = 1e-9;
 
 /// Change of the body's velocity for central differences (m/s).
 const VELOCITY_STEP: f64 = 0.01;
