@@ -231,6 +231,7 @@ impl From<ControlError> for Failure {
                 "choose another point with --point, or other values with --set: `flap run` shows the row"
             }
             ControlError::Unset { .. } => "for example with --set, or leave the input out",
+            ControlError::NoHarmonics(_) => "use --set drive_shape=harmonics, or leave the input out",
             ControlError::NoSize(_) => "set it with --set, or remove it from --inputs",
             ControlError::NoSlope { reason: NoSlope::Edge, .. } => {
                 "the input is at an end of its range: set another value with --set, or remove it from --inputs"

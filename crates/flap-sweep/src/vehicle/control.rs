@@ -79,11 +79,8 @@ impl Input {
     /// between the left and the right wings is also an input. `values` contains the values of the vehicle's
     /// parameters. Inputs whose parameter is not set are left out.
     pub fn usual(vehicle: &Vehicle, values: &[f64]) -> Vec<Input> {
-        let parameters = vehicle.parameters();
-        let shape = Parameter::index(parameters, "drive_shape");
-        let shape = shape.and_then(|shape| text::option(&parameters[shape], values[shape]));
         let words = ["amplitude", "bias", "second_harmonic"];
-        let words = if shape == Some("harmonics") { &words[..] } else { &words[..2] };
+        let words = if has_harmonics(vehicle, values) { &words[..] } else { &words[..2] };
         let names = words.iter().flat_map(|word| [(*word).to_owned(), format!("{word}{DIFFERENCE}")]);
         let inputs = names.filter_map(|name| Input::of(vehicle, &name).ok());
         inputs.filter(|input| input.unset(vehicle, values).is_none()).collect()
@@ -111,6 +108,12 @@ impl Input {
             None => self.parameter,
         };
         standing(parameters, values, index).is_nan().then_some(parameters[index].name)
+    }
+
+    /// Returns true if the input changes the amplitude or the phase of a harmonic of the drive.
+    fn is_harmonic(&self, vehicle: &Vehicle) -> bool {
+        let name = vehicle.parameters()[self.parameter].name;
+        ["second", "third"].iter().any(|harmonic| name.contains(&format!("drive_{harmonic}_")))
     }
 
     /// Returns two points, from which derivatives are computed: the points before and after a small change of
@@ -141,6 +144,13 @@ impl Input {
         let size = derivative::size(vehicle, values, self.parameter);
         size.map(f64::abs).ok_or_else(|| ControlError::NoSize(self.name.clone()))
     }
+}
+
+/// Returns true if the drive of the wings has a second and a third harmonic.
+fn has_harmonics(vehicle: &Vehicle, values: &[f64]) -> bool {
+    let parameters = vehicle.parameters();
+    let shape = Parameter::index(parameters, "drive_shape");
+    shape.and_then(|shape| text::option(&parameters[shape], values[shape])) == Some("harmonics")
 }
 
 /// Returns the index of the parameter that the input with the given name changes.
@@ -195,6 +205,9 @@ pub enum ControlError {
         /// Name of the parameter that is not set.
         parameter: String,
     },
+    /// An input changes a harmonic of the drive, but the drive has no harmonics.
+    #[error("the input `{0}` has an effect only with drive_shape = \"harmonics\"")]
+    NoHarmonics(String),
     /// An input has the value zero and no typical size.
     #[error("`{0}` is zero and has no typical size: set it to another value")]
     NoSize(String),
@@ -318,6 +331,9 @@ impl VehicleRun<'_> {
             if let Some(parameter) = input.unset(self.vehicle, values) {
                 let (input, parameter) = (input.name.clone(), parameter.to_owned());
                 return Err(ControlError::Unset { input, parameter });
+            }
+            if input.is_harmonic(self.vehicle) && !has_harmonics(self.vehicle, values) {
+                return Err(ControlError::NoHarmonics(input.name.clone()));
             }
         }
         let values = own_values(self.vehicle, values, inputs);
