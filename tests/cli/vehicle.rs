@@ -165,6 +165,11 @@ fn trims_reach_their_targets() {
         &format!("vehicle grid.toml {inputs} --trim force_up=50"),
         "the targets are not reached: force_up_mn",
     );
+    // Only the missed target is named.
+    let missed =
+        folder.ends(2, &format!("vehicle grid.toml {inputs} --trim force_up=50 --trim torque_roll=0"));
+    missed.says("instead of 50.0000000, but a trim allows a difference of 1.9e-3");
+    assert!(!missed.stderr.contains("torque_roll"), "{}", missed.stderr);
     folder.refuses(
         "vehicle grid.toml --inputs bias --trim force_up=2 --trim torque_roll=0",
         "2 targets need at least 2 inputs with an effect, not only [bias]",

@@ -241,7 +241,8 @@ impl From<ControlError> for Failure {
             }
             ControlError::FewInputs { .. } => "give more --inputs or fewer --trim",
             ControlError::NotReached(_) => {
-                "choose other --inputs, or targets closer to the point's force and torque"
+                "choose other --inputs, or targets closer to the point's force and torque; a smaller --rtol reduces the errors of the \
+                 point's force and torque"
             }
         };
         Failure::usage(error.to_string()).help(help)

@@ -100,13 +100,21 @@ pub fn to_targets(
     }
     let all = DVector::from_element(targets.len(), largest(&at.wrench, targets));
     // Newton's iteration cannot reduce a distance below the error of the row.
-    if is_met(&missed_by(&at.wrench, targets), &all, TOLERANCE.max(at.row.error_estimate.min(LOOSEST))) {
+    let tolerance = TOLERANCE.max(at.row.error_estimate.min(LOOSEST));
+    if is_met(&missed_by(&at.wrench, targets), &all, tolerance) {
         return Ok(Trim { at, steps });
     }
-    let nearest = targets.iter().map(|Target { component, value }| {
-        format!("{} = {:.7} instead of {value:.7}", COMPONENTS[*component], at.wrench[*component])
+    let allowed = tolerance * all[0];
+    let is_missed = |target: &&Target| (at.wrench[target.component] - target.value).abs() > allowed;
+    let nearest = targets.iter().filter(is_missed).map(|Target { component, value }| {
+        let (name, found) = (COMPONENTS[*component], at.wrench[*component]);
+        let [fixed, wanted] = [found, *value].map(|number| format!("{number:.7}"));
+        let [fixed, wanted] =
+            if fixed == wanted { [found, *value].map(|n| format!("{n:e}")) } else { [fixed, wanted] };
+        format!("{name} = {fixed} instead of {wanted}")
     });
-    Err(ControlError::NotReached(nearest.collect::<Vec<_>>().join(", ")))
+    let nearest = nearest.collect::<Vec<_>>().join(", ");
+    Err(ControlError::NotReached(format!("{nearest}, but a trim allows a difference of {allowed:.1e}")))
 }
 
 /// Returns the required value minus the present value of each component with a target.
