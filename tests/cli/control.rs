@@ -186,5 +186,32 @@ fn inputs_that_cannot_be_have_help() {
     folder
         .ends(2, "run grid.toml --set left_drive_frequency=100")
         .says("there is no parameter `left_drive_frequency`")
-        .says("the frequency is common to all wings: write `drive_frequency`");
+        .says("`drive_frequency` is common to all wings: write `drive_frequency`");
+    folder
+        .ends(2, "run grid.toml --set left_body_velocity_forward=1")
+        .says("`body_velocity_forward` is common to all wings: write `body_velocity_forward`");
+    for (arguments, message) in [
+        ("run grid.toml --set total_mass=1 --set total_mass=2", "--set: `total_mass` is given twice"),
+        ("vehicle grid.toml --trim force_up=1 --trim force_up=2", "--trim: `force_up` is given twice"),
+        ("vehicle grid.toml --trim hover=1", "write hover without a value"),
+        (
+            "vehicle grid.toml --trim hover --set total_mass=1e308",
+            "total_mass is 1e308 kg: the weight is not finite",
+        ),
+        (
+            "vehicle grid.toml --inputs second_phase --set drive_shape=sine",
+            "the input `second_phase` has an effect only with drive_shape = \"harmonics\"",
+        ),
+        (
+            "vehicle grid.toml --fly 1s --disturb rate_yaw=1 --disturb rate_yaw=2",
+            "--disturb: `rate_yaw` is given twice",
+        ),
+        (
+            "vehicle grid.toml --fly -1s --set body_inertia_roll=1.5e-9 --set body_inertia_pitch=1.5e-9 --set body_inertia_yaw=5e-10",
+            "a flight of -1 s is impossible",
+        ),
+        ("run grid.toml --point -1", "expected a whole number of 0 or more"),
+    ] {
+        folder.refuses(arguments, message);
+    }
 }

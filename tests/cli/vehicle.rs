@@ -226,11 +226,11 @@ fn mistakes_in_vehicles_are_told_with_their_place() {
         ),
         (
             &format!("{wing}[axes]\nleft_drive_frequency = [100, 110]\n"),
-            "help: the frequency is common to all wings: write `drive_frequency`",
+            "help: `drive_frequency` is common to all wings: write `drive_frequency`",
         ),
         (
             &format!("{wing}[axes]\nleft_drive_shape = [\"square\"]\n"),
-            "help: choices are common to all wings: write `drive_shape`",
+            "help: `drive_shape` is common to all wings: write `drive_shape`",
         ),
         (
             &format!("{wing}[params]\nleft_drive_phase = \"30 deg\"\n"),

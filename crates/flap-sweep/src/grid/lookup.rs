@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use flap_core::parameter::{Kind, Parameter};
+use flap_core::parameter::Parameter;
 use flap_core::simulate::Simulator;
 use flap_core::vehicle::{DIFFERENCE, Vehicle, of_all_wings};
 
@@ -71,8 +71,8 @@ impl<'l> Lookup<'l> {
 
 /// Explains why a vehicle has no parameter called `name`. `parameters` are the parameters of the vehicle.
 ///
-/// The function explains the absence of three kinds of parameters: choices and frequencies of one wing,
-/// phases, and left-right differences without wings on both sides. For all other names, or if `parameters`
+/// The function explains the absence of three kinds of parameters: parameters of one wing that are common to
+/// all wings, phases, and left-right differences without wings on both sides. For all other names, or if `parameters`
 /// are not the parameters of a vehicle, returns `None`.
 pub fn why_absent(parameters: &[Parameter], name: &str) -> Option<String> {
     if !parameters.iter().any(|known| known.name == "about_x") {
@@ -86,8 +86,7 @@ pub fn why_absent(parameters: &[Parameter], name: &str) -> Option<String> {
     parameters.iter().enumerate().find_map(|(index, known)| {
         let first = name.strip_suffix(known.name)?.strip_suffix('_')?;
         if !Vehicle::may_differ(known) && (first == DIFFERENCE || is_wing(parameters, first)) {
-            let what = if let Kind::Choice(_) = known.kind { "choices are" } else { "the frequency is" };
-            return Some(format!("{what} common to all wings: write `{}`", known.name));
+            return Some(format!("`{0}` is common to all wings: write `{0}`", known.name));
         }
         let has_own = (0..parameters.len()).any(|own| of_all_wings(parameters, own) == Some(index));
         (first == DIFFERENCE && has_own).then(|| {
