@@ -165,12 +165,20 @@ pub fn damping(
 }
 
 /// Returns the targets of a trim to hover: the upward force must equal the weight, and all torques must be
-/// zero. Returns `None` if the mass is not set.
+/// zero. Returns `None` if the mass is not set, or if the weight is too large.
 pub fn targets(body: &MassProperties) -> Option<Vec<Target>> {
     let weight = body.mass * body.gravity;
     let torques = (3..6).map(|component| Target { component, value: 0.0 });
     let lift = Target { component: 2, value: weight / WRENCH_TO_SI[2] };
     weight.is_finite().then(|| core::iter::once(lift).chain(torques).collect())
+}
+
+/// Returns the reason why a body has no weight to which flap can trim.
+pub fn no_weight(body: &MassProperties) -> HoverError {
+    if body.mass.is_nan() {
+        return HoverError::Missing(vec!["total_mass"]);
+    }
+    HoverError::Impossible(format!("total_mass is {:e} kg: the weight is not finite", body.mass))
 }
 
 /// Searches values of the inputs at which the vehicle hovers, beginning at `values`. Returns the control
@@ -186,7 +194,7 @@ pub fn trim(
     inputs: &[Input],
 ) -> Result<Effectiveness, HoverError> {
     let body = vehicle_run.vehicle.mass_properties(values);
-    let targets = targets(&body).ok_or_else(|| HoverError::Missing(vec!["total_mass"]))?;
+    let targets = targets(&body).ok_or_else(|| no_weight(&body))?;
     if body.inertia.iter().all(|moment| !moment.is_nan()) {
         check(&body)?;
     }

@@ -51,9 +51,10 @@ pub(super) fn freeze(chosen: &mut Chosen) -> Result<(), Failure> {
 
 /// Returns the target values of force and torque for `--trim hover`.
 pub(super) fn targets(body: &MassProperties) -> Result<Vec<Target>, Failure> {
-    hover::targets(body).ok_or_else(|| {
-        let failure = Failure::usage("--trim hover: total_mass is not set");
-        failure.help("add total_mass to [vehicle], or use --set, as in --set total_mass='85 mg'")
+    hover::targets(body).ok_or_else(|| match hover::no_weight(body) {
+        HoverError::Missing(_) => Failure::usage("--trim hover: total_mass is not set")
+            .help("add total_mass to [vehicle], or use --set, as in --set total_mass='85 mg'"),
+        error => error.into(),
     })
 }
 
