@@ -319,6 +319,7 @@ fn terms_change_the_measures_as_their_parameters_do() {
     for (name, after) in [("circulation_factor", "1"), ("stroke_stiffening", "1e-05"), ("hinge_damping", "0")]
     {
         let line = lines.iter().find(|line| line[0] == name).unwrap_or_else(|| panic!("no {name} in\n{csv}"));
+        let point = point.replace(&format!(" --set {name}=1e-10"), "");
         let row = folder.flap(&format!("run {point} --set {name}={after}")).stdout;
         let expected = 100.0 * (value(&row, "stroke_pp_deg") / before - 1.0);
         let found: f64 = line[4].parse().unwrap();

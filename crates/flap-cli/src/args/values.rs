@@ -40,7 +40,10 @@ pub(super) fn target(text: &str) -> Result<(String, String), String> {
     if text.trim() == HOVER {
         return Ok((HOVER.to_owned(), String::new()));
     }
-    assignment(text).map_err(|_| "write COLUMN=VALUE, such as torque_pitch=0, or hover".to_owned())
+    match assignment(text) {
+        Ok((name, _)) if name == HOVER => Err("write hover without a value".to_owned()),
+        target => target.map_err(|_| "write COLUMN=VALUE, such as torque_pitch=0, or hover".to_owned()),
+    }
 }
 
 /// Parses a length (m), which must not be negative.

@@ -61,6 +61,9 @@ impl Chosen {
         let (mut set, mut set_with_unit) = (Vec::new(), Vec::new());
         for (option, name, value) in point.changes.all() {
             let index = find_parameter(plan.parameters(), name)?;
+            if set.contains(&index) {
+                return Err(twice(option, name));
+            }
             values[index] = self::value(&plan.parameters()[index], &format!("{option} {name}="), value)?;
             set.push(index);
             set_with_unit.extend(units::has_unit(value).then_some(index));
@@ -247,6 +250,11 @@ pub(super) fn check_one_wing(plan: &Plan, what: &str, command: &str) -> Result<(
     let failure = Failure::usage(format!("{what} is a vehicle of {wings}, but {command} requires one wing"));
     Err(failure
         .help("remove [vehicle] from the file, and all keys that refer to single wings or their differences"))
+}
+
+/// Returns the failure for an `option` that the user gave twice for the same name.
+pub(super) fn twice(option: &str, name: &str) -> Failure {
+    Failure::usage(format!("{option}: `{name}` is given twice")).help("remove one of them")
 }
 
 /// Returns the plan with the solver settings of the command line, which override the settings of the grid

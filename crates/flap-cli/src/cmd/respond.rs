@@ -33,7 +33,10 @@ pub(crate) fn run(args: &RespondArgs) -> Result<Exit, Failure> {
         );
     }
     let (mut plan, along) = along(args, plan)?;
-    for (name, value) in &args.changes.set {
+    for (place, (name, value)) in args.changes.set.iter().enumerate() {
+        if args.changes.set[..place].iter().any(|(other, _)| other == name) {
+            return Err(point::twice("--set", name));
+        }
         plan = set(plan, &along, name, value)?;
     }
     if let Some(edge) = &args.edge {

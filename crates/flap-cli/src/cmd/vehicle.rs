@@ -17,7 +17,7 @@ use flap_sweep::vehicle::hover::damping;
 use flap_sweep::vehicle::trim::{self, Target};
 
 use self::parts::{HEADINGS, refused, tidy, title};
-use super::point::Chosen;
+use super::point::{self, Chosen};
 use crate::args::{HOVER, OutputFormat, VehicleArgs};
 use crate::console;
 use crate::failure::{Exit, Failure};
@@ -138,7 +138,7 @@ fn targets(given: &[(String, String)], body: &MassProperties) -> Result<Vec<Targ
             return Err(failure.help(format!("write a number in {unit}, without a unit")));
         };
         if targets.iter().any(|target| target.component == component) {
-            return Err(Failure::usage(format!("--trim: `{name}` is given twice")));
+            return Err(point::twice("--trim", name));
         }
         targets.push(Target { component, value });
     }

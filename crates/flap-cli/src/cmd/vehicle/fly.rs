@@ -7,6 +7,7 @@ use flap_sweep::vehicle::flight::{FED_BACK, FlightError, FlightRequest, fly};
 use flap_sweep::vehicle::hover::STATES;
 
 use crate::args::VehicleArgs;
+use crate::cmd::point;
 use crate::console;
 use crate::failure::{Exit, Failure};
 use crate::print;
@@ -41,14 +42,17 @@ pub(super) fn run(
 /// Returns the initial velocities, angular rates and angles of the body that `--disturb` gives.
 fn disturbance(given: &[(String, String)]) -> Result<[f64; FED_BACK], Failure> {
     let mut disturbance = [0.0; FED_BACK];
-    for (name, value) in given {
+    for (place, (name, value)) in given.iter().enumerate() {
+        if given[..place].iter().any(|(other, _)| other == name) {
+            return Err(point::twice("--disturb", name));
+        }
         let states = &STATES[..FED_BACK];
         let Some(state) = states.iter().position(|(state, _)| state == name) else {
             let failure = Failure::usage(format!("--disturb: no state is called `{name}`"));
             let known = states.iter().map(|(state, _)| *state);
             return Err(failure.nearest(name, known, "states are velocity_forward to angle_yaw"));
         };
-        disturbance[state] = units::parse_as(value, states[state].1).map_err(|error| {
+        disturbance[state] = units::parse_or_si(value, states[state].1).map_err(|error| {
             let failure = Failure::usage(error.message(&format!("--disturb {name}={value}")));
             failure.helps(error.help())
         })?;
