@@ -172,7 +172,22 @@ pub(crate) fn command() -> clap::Command {
     let template = format!(
         "{{about-with-newline}}\n{{usage-heading}} {{usage}}\n{groups}\nOptions:\n{{options}}{{after-help}}"
     );
-    Args::command().help_template(template).mut_subcommands(with_example)
+    let command = Args::command().help_template(template).mut_subcommands(with_example);
+    let is_negative = |word: &OsString| {
+        let number = word.to_str().and_then(|word| word.strip_prefix('-'));
+        number.is_some_and(|number| number.starts_with(|first: char| first.is_ascii_digit() || first == '.'))
+    };
+    if line().iter().any(is_negative) { with_negative_numbers(command) } else { command }
+}
+
+/// Lets every option of a command, and of its subcommands, have a value such as `-1s`. The parsers of the
+/// options then explain which values are allowed.
+fn with_negative_numbers(command: clap::Command) -> clap::Command {
+    let allow = |arg: clap::Arg| {
+        let is_option = !arg.is_positional() && arg.get_action().takes_values();
+        if is_option { arg.allow_hyphen_values(true) } else { arg }
+    };
+    command.mut_args(allow).mut_subcommands(with_negative_numbers)
 }
 
 /// Returns the list of commands for `flap --help`, in groups, with the first line of each command's help.

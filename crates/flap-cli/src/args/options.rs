@@ -8,7 +8,7 @@ use flap_sweep::files::integrity::OnDamage;
 use flap_sweep::files::job::OnExisting;
 use flap_sweep::table::labels::{self, Direction};
 
-use super::values::{assignment, count, interval, positive, threads, tolerance};
+use super::values::{assignment, count, index, interval, positive, threads, tolerance};
 
 /// Options that choose a design point.
 #[derive(Clone, PartialEq, clap::Args)]
@@ -18,7 +18,7 @@ pub(crate) struct PointArgs {
     pub(crate) what: String,
 
     /// Index of the point in the grid file, counted from 0
-    #[arg(short, long, value_name = "I", default_value_t = 0)]
+    #[arg(short, long, value_name = "I", default_value_t = 0, value_parser = index)]
     pub(crate) point: u64,
 
     #[command(flatten)]

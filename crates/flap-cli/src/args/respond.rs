@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use super::options::{BeginArgs, ChangeArgs, OutputFormat, SolverArgs};
+use super::values::index;
 
 #[derive(clap::Args)]
 #[command(after_help = RESPOND_HELP)]
@@ -82,7 +83,7 @@ pub(crate) struct RespondArgs {
     pub(crate) basins: Option<u32>,
 
     /// Seed of the random initial states
-    #[arg(long, value_name = "NUMBER", default_value_t = 0, requires = "basins", help_heading = BASINS)]
+    #[arg(long, value_name = "NUMBER", default_value_t = 0, value_parser = index, requires = "basins", help_heading = BASINS)]
     pub(crate) seed: u64,
 
     #[command(flatten)]

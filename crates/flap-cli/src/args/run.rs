@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use clap::value_parser;
 
 use super::options::{ChangeArgs, OutputFormat, OverwriteArgs, PointArgs, SolverArgs};
-use super::values::assignment;
+use super::values::{assignment, index};
 
 #[derive(clap::Args)]
 #[command(after_help = RUN_HELP)]
@@ -16,7 +16,7 @@ pub(crate) struct RunArgs {
     what: Vec<String>,
 
     /// Index of the point in the grid file, counted from 0
-    #[arg(short, long, value_name = "I", default_value_t = 0)]
+    #[arg(short, long, value_name = "I", default_value_t = 0, value_parser = index)]
     point: u64,
 
     #[command(flatten)]

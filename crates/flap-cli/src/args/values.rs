@@ -85,6 +85,11 @@ pub(super) fn rows(text: &str) -> Result<NonZeroUsize, String> {
     text.parse().map_err(|_| "expected a whole number of 1 or more".to_owned())
 }
 
+/// Parses a whole number of 0 or more.
+pub(super) fn index(text: &str) -> Result<u64, String> {
+    text.parse().map_err(|_| "expected a whole number of 0 or more".to_owned())
+}
+
 /// Parses a finite number greater than 0.
 pub(super) fn positive(text: &str) -> Result<f64, String> {
     let number = text.parse::<f64>().ok().filter(|number| number.is_finite() && *number > 0.0);
