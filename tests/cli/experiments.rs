@@ -256,6 +256,14 @@ fn chirps_end() {
             "a chirp of 75000 drive periods with 1000 samples each has 75000000 samples: at most 5000000 are allowed",
         )
         .says("help: take at most 66 samples per drive period");
+    for (range, cycles, rate) in
+        [("1 --to 1.5 --rate 1000", "6.250e-4", "6.250e-1"), ("150 --to 150.0000001", "1.000e-6", "1.500e-5")]
+    {
+        folder
+            .ends(2, &format!("test chirp jafferis2016 --from {range}"))
+            .says(&format!("which is {cycles} drive periods: at least 1 is needed"))
+            .says(&format!("help: sweep at {rate} Hz/s or slower, or over a larger range"));
+    }
     // The estimate is the number of rows.
     let ended = folder.ends(0, "test chirp ozaki2018-small --from 150 --to 170 --rate 100");
     assert_eq!(ended.stdout.lines().count(), 1 + 32, "160 Hz for 0.2 s");

@@ -17,10 +17,11 @@ impl From<Unfinished> for UserError {
     }
 }
 
-/// Computes the motion during a chirp. A chirp may have at most [`CYCLES_MAX`] drive periods.
+/// Computes the motion during a chirp. A chirp must have at least 1 and at most [`CYCLES_MAX`] drive periods.
 ///
 /// # Errors
-/// An error if the chirp has too many drive periods or samples, and the errors of [`Experiments::chirp`].
+/// An error if the chirp has too few or too many drive periods, or too many samples, and the errors of
+/// [`Experiments::chirp`].
 pub fn chirp(
     model: &dyn Experiments,
     run: &PointRun<'_>,
@@ -42,6 +43,15 @@ pub fn chirp(
         } else {
             "sweep over a smaller range of frequencies".to_owned()
         };
+        return Err(UserError { message, help: Some(help) });
+    }
+    if cycles > 0.0 && cycles < 1.0 {
+        let message = format!(
+            "a chirp from {from:?} Hz to {to:?} Hz at {rate:?} Hz/s lasts {duration:.3e} s, which is {cycles:.3e} drive periods: \
+             at least 1 is needed"
+        );
+        let help =
+            format!("sweep at {:.3e} Hz/s or slower, or over a larger range of frequencies", cycles * rate);
         return Err(UserError { message, help: Some(help) });
     }
     let all = cycles * f64::from(samples);
