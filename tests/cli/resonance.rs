@@ -100,7 +100,11 @@ fn impossible_motions_and_searches_are_refused() {
         ("test resonance ozaki2018-small --from 5mm", "write a number with a unit, such as `120 Hz`"),
         ("test resonance ozaki2018-small --tolerance 0", "the tolerance must be more than zero, not 0 Hz"),
         ("test resonance ozaki2018-small --window-cycles 1", "2..=1000"),
-        ("test resonance ozaki2018-small --spectrum-window 0s", "cannot be sampled"),
+        (
+            "test resonance ozaki2018-small --spectrum-window 5ms",
+            "the spectrum window of 0.005 s contains 0.9",
+        ),
+        ("test resonance ozaki2018-small --spectrum-window 0s", "contains 0.000 periods of the first mode"),
         ("test resonance ozaki2018-small --set drive_freqency=100", "did you mean `drive_frequency`?"),
         ("test resonance ozaki2018-small --point 1", "there is no point 1"),
         (

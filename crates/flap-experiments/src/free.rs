@@ -13,6 +13,10 @@ use crate::spectrum::{Spectrum, SpectrumPeak};
 /// Largest number of samples of one motion. All samples are stored in memory.
 pub const INTERVALS_MAX: u32 = 5_000_000;
 
+/// Smallest number of periods of the first mode in the motion of a spectrum. With fewer periods, the peaks are
+/// wider than the distance between them.
+const FEWEST_PERIODS: f64 = 3.0;
+
 /// Largest number of peaks of a spectrum.
 const PEAKS: usize = 2;
 
@@ -85,6 +89,16 @@ pub fn examine(
         Ok::<_, Unfinished>((duration / f64::from(intervals), motion))
     };
 
+    let periods = request.spectrum_window * frequency;
+    if periods < FEWEST_PERIODS {
+        return Err(Invalid::new(format!(
+            "the spectrum window of {} s contains {periods:.3} periods of the first mode, but at least {FEWEST_PERIODS} are needed: \
+             choose a window of at least {:.3e} s",
+            request.spectrum_window,
+            FEWEST_PERIODS / frequency
+        ))
+        .into());
+    }
     let signals = model.free_signals();
     let (interval, motion) = sampled(f64::from(request.fit_cycles) / frequency)?;
     let fit = match signals.first() {
