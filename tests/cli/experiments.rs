@@ -126,6 +126,32 @@ fn lift_of_a_given_motion_is_that_of_the_simulation() {
     }
 }
 
+/// The summary does not depend on the samples of the trajectory, and a stroke in the wrong unit causes a warning.
+#[test]
+fn the_summary_of_forces_has_its_own_samples() {
+    let motion = |stroke: f64| {
+        let mut text = "time_s,stroke_rad,pitch_rad\n".to_owned();
+        for i in 0..=50 {
+            let (sin, cos) = (std::f64::consts::TAU * f64::from(i) / 20.0).sin_cos();
+            let _ = writeln!(text, "{},{},{}", 2e-4 * f64::from(i), stroke * sin, 0.6 * cos);
+        }
+        text
+    };
+    let folder = folder_with("motion.csv", &motion(0.5));
+    let lift = "test lift ozaki2018-small motion.csv";
+    let summary = folder.ends(0, lift);
+    assert_eq!(summary.stderr, "");
+    let few = folder.ends(0, &format!("{lift} --trajectory forces.csv --samples 3"));
+    assert_eq!(few.stdout, summary.stdout);
+    assert_eq!(folder.read("forces.csv").lines().count(), 1 + 4);
+    folder.refuses(&format!("{lift} --samples 3"), "--trajectory");
+    fs::write(folder.path("degrees.csv"), motion(50.0)).unwrap();
+    folder
+        .ends(0, "test lift ozaki2018-small degrees.csv")
+        .says("warning: degrees.csv: the stroke reaches 2864.79°, which is more than 180°")
+        .says("check the unit in the heading of the stroke");
+}
+
 #[test]
 fn tracked_points_become_a_motion() {
     let mut points = "time_s,root_x,root_y,tip_x,tip_y,edge_x,edge_y\n".to_owned();

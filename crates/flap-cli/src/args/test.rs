@@ -210,8 +210,8 @@ pub(crate) struct LiftArgs {
     #[arg(short, long, value_name = "FILE")]
     pub(crate) trajectory: Option<PathBuf>,
 
-    /// Number of samples of the forces from the beginning to the end of the motion
-    #[arg(long, value_name = "N", default_value_t = 2000, value_parser = value_parser!(u32).range(1..=5_000_000))]
+    /// Number of samples of the trajectory from the beginning to the end of the motion
+    #[arg(long, value_name = "N", default_value_t = LiftArgs::SAMPLES, requires = "trajectory", value_parser = value_parser!(u32).range(1..=5_000_000))]
     pub(crate) samples: u32,
 
     /// Output format of the summary
@@ -220,6 +220,11 @@ pub(crate) struct LiftArgs {
 
     #[command(flatten)]
     pub(crate) overwrite: OverwriteArgs,
+}
+
+impl LiftArgs {
+    /// Default number of samples of the trajectory.
+    pub(crate) const SAMPLES: u32 = 2000;
 }
 
 const LIFT_HELP: &str = "\

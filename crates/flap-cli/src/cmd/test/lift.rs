@@ -1,7 +1,10 @@
 //! `flap test lift`: forces on a wing with a given motion.
 
+use std::f64::consts::PI;
+
 use flap_core::drive::Repeat;
 use flap_core::simulate::{ImposedMotion, Trajectory};
+use flap_experiments::free::INTERVALS_MAX;
 use flap_sweep::files::inputs::Inputs;
 use flap_sweep::files::record::{self, Record, RecordError};
 use flap_sweep::notation::text;
@@ -17,6 +20,10 @@ use crate::failure::{Exit, Failure};
 use crate::print;
 use crate::table::{Table, six_digits};
 
+/// Number of samples for the summary per row of the file with the motion. The summary has at least
+/// [`LiftArgs::SAMPLES`] samples.
+const SAMPLES_PER_ROW: u32 = 4;
+
 pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
     let chosen = Chosen::new(&args.point, &SolverArgs::default())?;
     let plan = &chosen.plan;
@@ -31,15 +38,27 @@ pub(super) fn run(args: &LiftArgs) -> Result<Exit, Failure> {
         RecordError::Missing { .. } => stroke_alone(error, plan, args),
         _ => error.into(),
     })?;
-    let motion = ImposedMotion { stroke, pitch, samples: args.samples };
-    let forces = experiment::forces(plan.simulator().experiments()?, &chosen.run(), &motion)?;
-
+    let [low, high] = stroke.sample_range();
+    let largest = high.max(-low);
+    if largest > PI {
+        let degrees = six_digits(largest.to_degrees());
+        console::warn(&format!(
+            "{}: the stroke reaches {degrees}°, which is more than 180°: check the unit in the heading of the stroke",
+            args.motion.display()
+        ));
+    }
+    let experiments = plan.simulator().experiments()?;
+    let mut motion = ImposedMotion { stroke, pitch, samples: args.samples };
     if let Some(path) = &args.trajectory {
+        let forces = experiment::forces(experiments, &chosen.run(), &motion)?;
         write_file(&forces, path, args.overwrite.force, "sample")?;
         if console::is_stdout(path) {
             return Ok(Exit::Done);
         }
     }
+    let rows = u32::try_from(file.column(&record::TIME)?.len()).unwrap_or(u32::MAX);
+    motion.samples = LiftArgs::SAMPLES.max(SAMPLES_PER_ROW.saturating_mul(rows)).min(INTERVALS_MAX);
+    let forces = experiment::forces(experiments, &chosen.run(), &motion)?;
     print::table(args.format, &NAMES, &summary(&forces, text::float), || {
         Table::of(&NAMES, summary(&forces, six_digits)).text_within(console::width())
     })?;
