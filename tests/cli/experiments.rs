@@ -183,7 +183,7 @@ fn tracked_points_become_a_motion() {
     assert!(piped.stdout.starts_with("time_s,stroke_deg\n") && piped.stderr.contains("rotation centre"));
     let short = folder.flap("test track points.csv --chord 3");
     assert!(
-        short.code == 2 && short.stderr.contains("image 1: the lower edge is at a distance of"),
+        short.code == 2 && short.stderr.contains("points.csv: image 1: the lower edge is at a distance of"),
         "{}",
         short.stderr
     );

@@ -102,10 +102,16 @@ pub fn rotation_centre(edges: &[LeadingEdge]) -> Result<[f64; 2], Invalid> {
         right_x += normal[0] * offset;
         right_y += normal[1] * offset;
     }
+    if edges.len() < 2 {
+        return Err(Invalid::new(format!(
+            "the centre of rotation requires two images at different strokes, but the number of images is {}",
+            edges.len()
+        )));
+    }
     let determinant = xx * yy - xy * xy;
     let count = edges.len() as f64;
     // The determinant for n lines whose directions differ by an angle of δ is about (n δ/2)².
-    if edges.len() < 2 || determinant <= 1e-12 * count * count {
+    if determinant <= 1e-12 * count * count {
         return Err(Invalid::new(
             "the leading edges are parallel: the centre of rotation requires two images at different strokes",
         ));

@@ -226,7 +226,7 @@ impl Record {
         let times = self.times()?;
         let edges = self.points("root")?.into_iter().zip(self.points("tip")?);
         let edges: Vec<LeadingEdge> = edges.map(|(root, tip)| LeadingEdge { root, tip }).collect();
-        let centre = rotation_centre(&edges).map_err(|invalid| RecordError::Wrong(invalid.to_string()))?;
+        let centre = rotation_centre(&edges).map_err(|invalid| self.wrong(&invalid.to_string()))?;
         let mut columns = vec!["time_s".to_owned(), "stroke_deg".to_owned()];
         let strokes = times.iter().zip(strokes(&edges));
         let mut rows: Vec<Vec<f64>> =
@@ -236,8 +236,7 @@ impl Record {
             let points = edges.iter().zip(self.points("edge")?);
             for (i, (row, (edge, point))) in rows.iter_mut().zip(points).enumerate() {
                 let pitch = pitch_from_projection(edge.distance(point), chord);
-                let pitch =
-                    pitch.map_err(|invalid| RecordError::Wrong(format!("image {}: {invalid}", i + 1)))?;
+                let pitch = pitch.map_err(|invalid| self.wrong(&format!("image {}: {invalid}", i + 1)))?;
                 row.push(pitch.to_degrees());
             }
         }
