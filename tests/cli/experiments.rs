@@ -187,6 +187,14 @@ fn tracked_points_become_a_motion() {
         "{}",
         short.stderr
     );
+    folder.refuses("test track points.csv --chord -1", "expected a finite number more than zero");
+    let heading = points.lines().next().unwrap();
+    fs::write(folder.path("empty.csv"), heading).unwrap();
+    folder.refuses("test track empty.csv", "empty.csv: the centre of rotation requires two images");
+    fs::write(folder.path("comma.csv"), "time_s;root_x\n0;1,5\n").unwrap();
+    for command in ["test track", "top --by root_x", "plot", "device wing --preset jafferis2016"] {
+        folder.refuses(&format!("{command} comma.csv"), "the first line contains `;` instead of commas");
+    }
 }
 
 /// For a filmed stroke without pitch, the message names the command that computes the pitch.

@@ -382,11 +382,12 @@ fn words_are_counted() {
 #[test]
 fn a_file_without_numbers_is_told() {
     let folder = Folder::new();
-    fs::write(folder.path("semicolons.csv"), "a;b\n1;2\n").unwrap();
-    folder.ends(2, "describe semicolons.csv").says(
-        "error: semicolons.csv has no column of numbers\n\
-         help: cells must be separated by commas; the first line contains `;`, which may be the separator\n",
-    );
+    fs::write(folder.path("words.csv"), "a,b\nx,y\n").unwrap();
+    folder.ends(2, "describe words.csv").says("error: words.csv has no column of numbers\n");
+    for (mark, named) in [(";", ";"), ("\t", "\\t"), ("|", "|")] {
+        fs::write(folder.path("marks.csv"), format!("a{mark}b\n1{mark}2\n")).unwrap();
+        folder.refuses("describe marks.csv", &format!("the first line contains `{named}` instead of commas"));
+    }
 }
 
 #[test]

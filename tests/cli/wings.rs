@@ -173,6 +173,11 @@ fn mistakes_are_told_with_their_place() {
     let head = "span [mm],leading_edge [mm],trailing_edge [mm]\n";
     told("span,chord\n0,1\n", "wing.csv:1: there is no column `leading_edge`");
     told("span,leading_edge,trailing_edge\n0,0,1\n14,0,1\n", "wing.csv:1: the column `span` has no unit");
+    told(
+        "span [mm],leading_edge [mm],trailing_edge [mm],span [m]\n0,0,1,0\n14,0,1,1\n",
+        "wing.csv:1: two columns are called span: keep one of them",
+    );
+    told(&head.replace(',', ";"), "wing.csv:1: the first line contains `;` instead of commas");
     told(&format!("{head}0,0,one\n1,0,2\n"), "wing.csv:2: ");
     told(&format!("{head}0,0,1\n1,0\n"), "wing.csv");
     told(&format!("{head}0,0,1\n"), "an outline has at least two stations, not 1");
@@ -190,6 +195,9 @@ fn mistakes_are_told_with_their_place() {
     folder
         .ends_with(2, &["device", "wing", "wing.csv", "--preset", "jafferis2016", "--mass", "0 mg"])
         .says("the mass must be more than zero");
+    folder
+        .ends_with(2, &["device", "wing", "wing.csv", "--preset", "jafferis2016", "--offset", "-1mm"])
+        .says("expected zero or more");
     folder.ends_with(2, &["device", "wing", "wing.csv", "--preset", "jaferis2016"]).says("jafferis2016");
 }
 

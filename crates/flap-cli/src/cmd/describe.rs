@@ -105,7 +105,8 @@ fn describe(
         }
     }
     if spreads.is_empty() && words.is_empty() && selected.status.is_none() {
-        return Err(without_numbers(args, table));
+        let message = format!("{} has no column of numbers", args.look.results.display());
+        return Err(Failure::usage(message));
     }
     let axes = Axes::of(table, selected.status.unwrap_or(0));
     let mut best = Vec::new();
@@ -118,18 +119,6 @@ fn describe(
         best.extend(found);
     }
     Ok(Description { rows: table.of, statuses, columns: spreads, words, best })
-}
-
-/// Returns the failure for a file without columns of numbers.
-fn without_numbers(args: &DescribeArgs, table: &Table) -> Failure {
-    let failure = Failure::usage(format!("{} has no column of numbers", args.look.results.display()));
-    let other = [";", "\t", "|"].into_iter().find(|mark| table.columns[0].name.contains(mark));
-    failure.helps(other.map(|mark| {
-        let mark = mark.escape_default();
-        format!(
-            "cells must be separated by commas; the first line contains `{mark}`, which may be the separator"
-        )
-    }))
 }
 
 /// Returns the number of rows with each status, and the rows to summarize. If `all` is false, only rows with

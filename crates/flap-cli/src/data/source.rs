@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use csv::StringRecord;
 use flap_sweep::files::beside::sidecar_of;
 use flap_sweep::files::integrity::{self, Note, Opened};
+use flap_sweep::files::record::other_separator;
 use flap_sweep::files::results::Reader;
 use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::plan::Plan;
@@ -55,6 +56,9 @@ impl Source {
         }
         if reader.names().iter().all(String::is_empty) {
             return Err(Failure::usage(format!("{} has no columns", path.display())));
+        }
+        if let Some(mistake) = other_separator(reader.names()) {
+            return Err(Failure::usage(format!("{}: {mistake}", path.display())));
         }
         let plan = plan_beside(path, sidecar.as_ref());
         let units = Units::of(plan.as_ref());

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use flap_core::aero::{Outline, Station};
 
+use super::record::{other_separator, repeated};
 use crate::input::{self, MOST_BYTES};
 use crate::notation::{UserError, units};
 
@@ -35,6 +36,13 @@ pub fn parse(path: &Path, text: &str) -> Result<Outline, UserError> {
     let refused = |message: String| UserError { message, help: Some(HELP.to_owned()) };
     let wrong = |line: u64, reason: String| refused(format!("{}:{line}: {reason}", path.display()));
     let headings = reader.headers().map_err(|error| wrong(1, error.to_string()))?.clone();
+    let names: Vec<String> = headings.iter().map(|heading| split(heading).0.to_owned()).collect();
+    if let Some(mistake) = other_separator(&headings.iter().map(str::to_owned).collect::<Vec<_>>()) {
+        return Err(wrong(1, mistake));
+    }
+    if let Some(twice) = repeated(&names) {
+        return Err(wrong(1, format!("two columns are called {twice}: keep one of them")));
+    }
     let columns = COLUMNS.map(|name| find(&headings, name));
     let [Some(span), Some(leading), Some(trailing)] = columns else {
         let missing = COLUMNS.iter().zip(&columns).find(|(_, column)| column.is_none());
@@ -68,8 +76,12 @@ pub fn parse(path: &Path, text: &str) -> Result<Outline, UserError> {
 /// Returns the position and the unit of the column called `name`. The unit is empty if the heading has no
 /// unit.
 fn find(headings: &csv::StringRecord, name: &str) -> Option<(usize, String)> {
-    headings.iter().enumerate().find_map(|(place, heading)| {
-        let (found, unit) = heading.split_once('[').unwrap_or((heading, ""));
-        (found.trim() == name).then(|| (place, unit.trim_end_matches(']').trim().to_owned()))
-    })
+    let place = headings.iter().position(|heading| split(heading).0 == name)?;
+    Some((place, split(&headings[place]).1.to_owned()))
+}
+
+/// Returns the name and the unit in a heading such as `span [mm]`.
+fn split(heading: &str) -> (&str, &str) {
+    let (name, unit) = heading.split_once('[').unwrap_or((heading, ""));
+    (name.trim(), unit.trim_end_matches(']').trim())
 }

@@ -74,6 +74,9 @@ impl Record {
         let fail = |error: csv::Error| RecordError::Read { name: name.clone(), source: cause(error) };
         let mut reader = csv::ReaderBuilder::new().trim(csv::Trim::All).from_reader(text.as_bytes());
         let headings: Vec<String> = reader.headers().map_err(fail)?.iter().map(str::to_owned).collect();
+        if let Some(mistake) = other_separator(&headings) {
+            return Err(RecordError::Wrong(format!("{name}: {mistake}")));
+        }
         if let Some(twice) = repeated(&headings) {
             let message = format!("{name}: two columns are called {twice}: keep one of them");
             return Err(RecordError::Wrong(message));
@@ -271,6 +274,15 @@ fn known(headings: &[String]) -> String {
     } else {
         format!("the file has {}", text::listed(headings.iter().map(String::as_str), "column"))
     }
+}
+
+/// Returns a message if the first line of a file contains another separator than commas.
+pub fn other_separator(headings: &[String]) -> Option<String> {
+    let [heading] = headings else { return None };
+    let mark = [";", "\t", "|"].into_iter().find(|mark| heading.contains(mark))?.escape_default();
+    Some(format!(
+        "the first line contains `{mark}` instead of commas: separate the cells by commas, and write numbers with a decimal point"
+    ))
 }
 
 /// Returns the first heading that occurs twice; `None` if all headings differ.
