@@ -264,6 +264,24 @@ fn the_best_row_at_the_end_of_an_axis_is_told() {
     assert!(!ended.stderr.contains("at the end"), "one value is no axis: {}", ended.stderr);
 }
 
+/// A measure that is a condition is a column with true and false, and such a column is a condition of `--where`.
+#[test]
+fn columns_with_true_and_false_are_conditions() {
+    let folder = swept(&format!("{GRID}[measure]\nhigh = \"drive_frequency > 110\"\n"));
+    let rows = |condition: &str| {
+        let look = ["top", "rows.csv", "--by", "cycles", "-n", "99", "--all", "--format", "csv", "--where"];
+        folder.ends_with(0, &[&look[..], &[condition]].concat()).stdout.lines().count() - 1
+    };
+    // The grid has 10 frequencies from 95 to 122 Hz, and rows that are not periodic have no measures.
+    let [high, equal, low, both] =
+        ["high", "high=true", "not high and status == 'periodic'", "high and drive_frequency < 115"]
+            .map(rows);
+    let periodic = rows("status == 'periodic'");
+    assert!(0 < both && both < high && high < periodic, "{both} {high} {periodic}");
+    assert_eq!((equal, low, rows("high == 1")), (high, periodic - high, high));
+    folder.refuses("top rows.csv --by cycles --where lift_mean_mn", "this is a number, not a condition");
+}
+
 /// A row without a periodic motion belongs to the axis too.
 #[test]
 fn rows_of_every_status_belong_to_an_axis() {

@@ -117,8 +117,11 @@ impl Filters {
                 let names = source.names().to_vec();
                 let units: Vec<String> = (0..names.len()).map(|column| source.unit(column)).collect();
                 let compared = Compared::of(text);
-                let scope = ColumnScope { names: &names, units: &units, compared: &compared };
-                let expression = comparison(text, &scope)?;
+                let scope = ColumnScope { names: &names, units: &units, flags: &[], compared: &compared };
+                // Numbers 0 and 1 may replace false and true.
+                let expression = comparison(text, &scope).or_else(|failure| {
+                    comparison(text, &ColumnScope { flags: source.flags(), ..scope }).map_err(|_| failure)
+                })?;
                 let texts = names.iter().enumerate().filter(|(_, name)| compared.is_text(name));
                 let texts = texts.map(|(column, name)| TextColumn::new(column, name)).collect();
                 let words = compared.words.into_iter().map(str::to_owned).collect();
@@ -315,6 +318,8 @@ impl<'t> Compared<'t> {
 struct ColumnScope<'n> {
     names: &'n [String],
     units: &'n [String],
+    /// Names of the columns that are conditions by themselves.
+    flags: &'n [String],
     compared: &'n Compared<'n>,
 }
 
@@ -325,6 +330,7 @@ impl Scope for ColumnScope<'_> {
             "status" => Meaning::Choice(column, STATUSES.as_slice()),
             "branch" => Meaning::Choice(column, BRANCHES),
             "stable" | "bistable" => Meaning::Condition(column),
+            _ if self.flags.iter().any(|flag| flag == name) => Meaning::Condition(column),
             _ if self.compared.is_text(name) => Meaning::Choice(column, &self.compared.words),
             _ => Meaning::Number(column),
         })

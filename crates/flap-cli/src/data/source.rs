@@ -12,7 +12,7 @@ use flap_sweep::files::sidecar::Sidecar;
 use flap_sweep::plan::Plan;
 use flap_sweep::plan::axes::Values;
 use flap_sweep::table::labels;
-use flap_sweep::table::layout::Layout;
+use flap_sweep::table::layout::{CellKind, Layout};
 
 use super::columns::{self, Cells, Column, NO_WORD, RefinedAxis, Table};
 use crate::args::ReadArgs;
@@ -26,6 +26,8 @@ const MOST_ROWS: usize = 20_000_000;
 pub(crate) struct Source {
     reader: Reader,
     units: Units,
+    /// Names of the columns with true and false that the sidecar lists. Empty without a sidecar.
+    flags: Vec<String>,
     /// Names of the sampled parameters, which the sidecar lists. `None` means that flap does not know whether
     /// the points are a sample.
     sample: Option<Vec<String>>,
@@ -62,10 +64,11 @@ impl Source {
         }
         let plan = plan_beside(path, sidecar.as_ref());
         let units = Units::of(plan.as_ref());
+        let flags = plan.as_ref().map(flags).unwrap_or_default();
         let sample = plan.as_ref().and_then(sampled);
         let derived = plan.as_ref().map(derived).unwrap_or_default();
         let refined = plan.as_ref().map(refined).unwrap_or_default();
-        Ok(Source { reader, units, sample, derived, refined, plan, path: path.to_owned(), is_verbose })
+        Ok(Source { reader, units, flags, sample, derived, refined, plan, path: path.to_owned(), is_verbose })
     }
 
     pub(crate) fn names(&self) -> &[String] {
@@ -86,6 +89,11 @@ impl Source {
     /// Returns the unit of a column as text; empty for a column without a unit.
     pub(crate) fn unit(&self, column: usize) -> String {
         self.units.of_column(&self.names()[column])
+    }
+
+    /// Returns the names of the columns that contain true and false.
+    pub(crate) fn flags(&self) -> &[String] {
+        &self.flags
     }
 
     /// Returns true if the sidecar lists this column as a sampled or derived parameter. Such parameters are
@@ -271,6 +279,12 @@ fn sampled(plan: &Plan) -> Option<Vec<String>> {
     let sampled: Vec<String> = sampled.map(|&(place, _)| parameters[place].name.to_owned()).collect();
     let is_listed = plan.axes().as_slice().iter().any(|axis| axis.parameters().len() > 1);
     (!sampled.is_empty() || !is_listed).then_some(sampled)
+}
+
+/// Returns the names of the columns of a plan's rows that contain true and false.
+fn flags(plan: &Plan) -> Vec<String> {
+    let columns = Layout::of(plan).columns().into_iter();
+    columns.filter(|column| column.kind == CellKind::Flag).map(|column| column.name).collect()
 }
 
 /// Returns the names of the derived parameters of a plan.
