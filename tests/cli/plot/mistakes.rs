@@ -68,6 +68,7 @@ fn mistakes_are_told() {
             &["`Hz` is a frequency, but drive_voltage_pp is in V", "use V, mV, kV"],
         ),
         (&["sweep.csv", "--y", "status"], &["column `status` contains text, not numbers"]),
+        (&["sweep.csv", "--x", "status"], &["column `status` contains text, not numbers"]),
         (
             &["sweep.csv", "--kind", "map", "--by", "status"],
             &["--by requires --kind response or hysteresis, but this picture is a map"],

@@ -67,13 +67,16 @@ impl Table {
         let column = &self.columns[index];
         match &column.cells {
             Cells::Numbers(values) => Ok(values),
-            Cells::Words { .. } => {
-                let message = format!("column `{}` contains text, not numbers", column.name);
-                Err(Failure::usage(message).help("choose a column of numbers; only --where accepts text too"))
-            }
+            Cells::Words { .. } => Err(no_numbers(&column.name)),
             Cells::Unread => Err(Failure::Bug(format!("column `{}` was not read", column.name))),
         }
     }
+}
+
+/// Returns the failure for a column of text where flap requires numbers.
+pub(crate) fn no_numbers(name: &str) -> Failure {
+    let failure = Failure::usage(format!("column `{name}` contains text, not numbers"));
+    failure.help("choose a column of numbers; only --by, --color and --where accept text")
 }
 
 /// Returns the position of the column `name`, or an error that suggests a similar name or lists all names.

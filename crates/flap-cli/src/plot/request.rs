@@ -45,6 +45,10 @@ impl<'a> Request<'a> {
     /// Finds the columns that the user requested, or returns an error if the file lacks one of these columns.
     pub(super) fn of(source: &Source, args: &'a PlotArgs) -> Result<Request<'a>, Failure> {
         let find = |name: &Option<String>| name.as_deref().map(|name| source.find(name)).transpose();
+        // Other columns of text, such as `device`, are horizontal axes.
+        if args.x.as_deref() == Some("status") {
+            return Err(columns::no_numbers("status"));
+        }
         let names = source.names().to_vec();
         let first_measure = source.position("status").map_or(names.len(), |status| status + 1);
         let measured: Vec<&str> = names[first_measure..].iter().map(String::as_str).collect();
