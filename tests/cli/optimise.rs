@@ -157,6 +157,7 @@ fn mistakes_have_their_place_and_help() {
         .refuses("optimise preset.toml --maximise lift_mean_mn", "preset.toml: the grid varies no parameter");
     fs::write(folder.path("fast.toml"), GRID.replace("[axes]", "[solver]\nmax_cycles = 2\n[axes]")).unwrap();
     folder.refuses("optimise fast.toml --maximise lift_mean_mn", "has a periodic motion");
+    folder.refuses("optimise grid.toml --maximise 1/0", "has a periodic motion with a finite goal");
 }
 
 #[test]

@@ -63,8 +63,12 @@ where
         return Err(Failure::Interrupted);
     }
     let grid = args.grid.display();
-    let failure = Failure::usage(format!("no point of {grid} that was computed has a periodic motion"));
-    Err(failure.help(format!("`flap sweep {grid}` shows the status of each point")))
+    let failure = Failure::usage(format!(
+        "no point of {grid} that was computed has a periodic motion with a finite goal and finite conditions"
+    ));
+    Err(failure.help(format!(
+        "`flap sweep {grid}` shows the status of each point; if points are periodic, correct the goal or --where"
+    )))
 }
 
 /// Returns the measures of the best design, each with name, value and unit.
