@@ -441,6 +441,14 @@ fn manuals_know_every_command() {
         let text = std::fs::read_to_string(pages.join(page)).unwrap();
         assert!(text.contains(".SH SYNOPSIS"), "{page}");
     }
+    // Equal pages are no obstacle, but a file with another text is.
+    folder.ends(0, "generate man manual/man1");
+    let page = "manual/man1/flap.1";
+    std::fs::write(folder.path(page), "mine").unwrap();
+    folder.refuses("generate man manual/man1", &format!("{page} exists and has another text"));
+    assert_eq!(folder.read(page), "mine");
+    folder.ends(0, "generate man manual/man1 --force");
+    assert!(folder.read(page).contains(".SH SYNOPSIS"));
 }
 
 #[test]

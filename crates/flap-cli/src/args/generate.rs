@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::Subcommand;
 use clap_complete::Shell;
 
+use super::options::OverwriteArgs;
+
 #[derive(Subcommand)]
 pub(crate) enum GenerateCommand {
     /// Print a script with which a shell completes commands and options
@@ -33,9 +35,12 @@ Examples:
 #[derive(clap::Args)]
 #[command(after_help = "Example:\n  flap generate man ~/.local/share/man/man1")]
 pub(crate) struct ManArgs {
-    /// Folder for the manual pages; flap overwrites existing pages
+    /// Folder for the manual pages
     #[arg(value_name = "FOLDER")]
     pub(crate) folder: PathBuf,
+
+    #[command(flatten)]
+    pub(crate) overwrite: OverwriteArgs,
 }
 
 #[derive(clap::Args)]

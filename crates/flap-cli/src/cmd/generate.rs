@@ -1,10 +1,11 @@
 //! `flap generate`: files for shells, manual pages, and a schema for editors.
 
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use clap_complete::env::Shells;
-use clap_mangen::generate_to;
+use clap_mangen::Man;
 use flap_sweep::grid::schema;
 
 use crate::args::{self, CompletionsArgs, GenerateCommand, ManArgs, SchemaArgs};
@@ -41,14 +42,37 @@ fn completions(args: &CompletionsArgs) -> Result<Exit, Failure> {
 /// Writes the manual pages, one per command.
 fn man(args: &ManArgs) -> Result<Exit, Failure> {
     let folder = &args.folder;
-    let written = fs::create_dir_all(folder).and_then(|()| generate_to(args::command(), folder));
-    written.map_err(|error| Failure::cannot_write(folder, &error))?;
+    let mut command = args::command().disable_help_subcommand(true);
+    command.build();
+    let mut pages = Vec::new();
+    add_pages(command, folder, &mut pages)?;
+    let is_other = |path: &Path, text: &[u8]| path.exists() && fs::read(path).ok().as_deref() != Some(text);
+    if let Some((path, _)) = pages.iter().find(|(path, text)| !args.overwrite.force && is_other(path, text)) {
+        let failure = Failure::usage(format!("{} exists and has another text", path.display()));
+        return Err(failure.help("use --force to overwrite the files of all pages, or choose another folder"));
+    }
+    let write = || {
+        fs::create_dir_all(folder)?;
+        pages.iter().try_for_each(|(path, text)| fs::write(path, text))
+    };
+    write().map_err(|error| Failure::cannot_write(folder, &error))?;
     console::say(&format!(
         "manual pages in {}: `man -l {}` shows the first",
         folder.display(),
         folder.join("flap.1").display()
     ));
     Ok(Exit::Done)
+}
+
+/// Adds the manual pages of a command and of its subcommands, each with the path of its file in `folder`.
+fn add_pages(command: clap::Command, folder: &Path, pages: &mut Vec<(PathBuf, Vec<u8>)>) -> io::Result<()> {
+    for subcommand in command.get_subcommands().filter(|subcommand| !subcommand.is_hide_set()) {
+        add_pages(subcommand.clone(), folder, pages)?;
+    }
+    let (page, mut text) = (Man::new(command), Vec::new());
+    page.render(&mut text)?;
+    pages.push((folder.join(page.get_filename()), text));
+    Ok(())
 }
 
 /// Prints a JSON schema of grid files.
