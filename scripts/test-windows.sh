@@ -152,8 +152,6 @@ address, token = sys.argv[1].split("/?token=")
 page = urllib.request.urlopen(sys.argv[1], timeout=60).read().decode()
 assert 'id="data"' in page
 family = {
-    "page": "a page",
-    "number": 0,
     "x": {"name": "drive_frequency", "from": 95.0, "to": 119.0, "n": 5},
 }
 headers = {"X-Flap-Token": token, "Content-Type": "application/json"}

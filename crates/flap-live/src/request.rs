@@ -39,6 +39,7 @@ pub(crate) struct By {
 
 /// A request for a family of lines in a chart. The answer contains one row for each point of a line.
 #[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct FamilyRequest {
     #[serde(default)]
     pub(crate) design: Design,
@@ -48,6 +49,7 @@ pub(crate) struct FamilyRequest {
 
 /// A request for the numbers of a design, and for the derivatives of the measure whose name is in `gradient`.
 #[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct PointRequest {
     #[serde(default)]
     pub(crate) design: Design,
@@ -56,6 +58,7 @@ pub(crate) struct PointRequest {
 
 /// A request for one period of a design's settled motion.
 #[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct MotionRequest {
     #[serde(default)]
     pub(crate) design: Design,
@@ -67,6 +70,7 @@ pub(crate) struct MotionRequest {
 
 /// A request for the response of a design to a parameter that rises and falls.
 #[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct HysteresisRequest {
     #[serde(default)]
     pub(crate) design: Design,
@@ -75,6 +79,7 @@ pub(crate) struct HysteresisRequest {
 
 /// A request for a text that the user can save.
 #[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub(crate) struct SaveRequest {
     pub(crate) kind: SaveKind,
     #[serde(default)]

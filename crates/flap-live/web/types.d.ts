@@ -245,7 +245,7 @@ export interface RowTable {
 /** Rows of the server with their request. */
 export interface ResponseAnswer extends RowTable {
   kind: "family" | "hysteresis";
-  request: { design: Design; x: AxisRange & { n: number }; by: LineValues | null };
+  request: { design: Design; x: AxisRange & { n: number }; by?: LineValues | null };
   /** The state at the beginning of each row's motion, for responses up and down. */
   states?: number[][];
 }

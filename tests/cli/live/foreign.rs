@@ -5,7 +5,7 @@ use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::time::Duration;
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use super::server::Live;
 use crate::support::Folder;
@@ -34,15 +34,10 @@ fn a_thousand_broken_and_foreign_requests() {
     let folder = Folder::new();
     std::fs::write(folder.path("secret.toml"), SECRET).unwrap();
     let live = Live::start(&folder, &["ozaki2018-large"]);
-    let good = json!({
-        "design": { "air_density": 1.1 },
-        "x": { "name": "drive_frequency", "from": 100.0, "to": 110.0, "n": 2 }, "by": null, "samples": 9, "kind": "grid",
-    })
-    .to_string();
     let mut dice = Dice(20);
     let mut statuses = std::collections::BTreeMap::new();
     for round in 0..1000 {
-        let (bytes, allowed) = broken(&live, &good, &mut dice, round);
+        let (bytes, allowed) = broken(&live, &mut dice, round);
         let answer = if allowed.is_empty() { live.cut_off(&bytes) } else { live.send(&bytes) };
         let Some(answer) = answer else {
             // What is no HTTP at all may be hung up on; what is cut off has nobody to answer.
@@ -63,14 +58,44 @@ fn a_thousand_broken_and_foreign_requests() {
     for status in [400, 401, 403, 404, 405, 413, 422] {
         assert!(statuses.contains_key(&status), "no request was answered {status}: {statuses:?}");
     }
-    let (status, _) = live.ask("family", &serde_json::from_str(&good).unwrap());
-    assert_eq!(status, 200, "the server goes on");
+    for kind in KINDS {
+        let (status, answer) = live.ask(kind, &good(kind));
+        assert_eq!(status, 200, "the server goes on: {kind} {answer}");
+        let mut unknown = good(kind);
+        unknown["desing"] = json!({});
+        let (status, answer) = live.ask(kind, &unknown);
+        assert_eq!(status, 400, "{kind} {answer}");
+        assert!(
+            answer["error"].as_str().unwrap().starts_with("unknown field `desing`, expected"),
+            "{answer}"
+        );
+    }
     assert_eq!(folder.names(), ["secret.toml"], "nothing is written");
 }
 
+const KINDS: [&str; 5] = ["family", "point", "motion", "hysteresis", "save"];
+
+/// A request of the given kind that the server answers.
+fn good(kind: &str) -> Value {
+    let mut request = json!({ "design": { "air_density": 1.1 } });
+    let x = json!({ "name": "drive_frequency", "from": 100.0, "to": 110.0, "n": 2 });
+    let keys = match kind {
+        "family" => vec![("x", x), ("by", Value::Null)],
+        "motion" => vec![("samples", json!(9))],
+        "hysteresis" => vec![("x", x)],
+        "save" => vec![("x", x), ("kind", json!("grid"))],
+        _ => Vec::new(),
+    };
+    for (key, value) in keys {
+        request[key] = value;
+    }
+    request
+}
+
 /// The bytes of a request, and the allowed statuses; no status if the server may close the connection.
-fn broken(live: &Live, good: &str, dice: &mut Dice, round: usize) -> (Vec<u8>, Vec<u16>) {
-    let kind = dice.pick(&["family", "point", "motion", "hysteresis", "save"]);
+fn broken(live: &Live, dice: &mut Dice, round: usize) -> (Vec<u8>, Vec<u16>) {
+    let kind = dice.pick(&KINDS);
+    let good = &good(kind).to_string();
     let whole = live.request(kind, good);
     let own = format!("127.0.0.1:{}", live.port);
     match round % 12 {

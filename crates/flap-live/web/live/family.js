@@ -78,9 +78,9 @@ const showError = (/** @type {ServerError | null} */ error) => {
  * @returns {Promise<ResponseAnswer | null>}
  */
 const requestRows = async (kind, n) => {
-  const by = state.updown ? null : state.by;
+  const response = { design: state.design, x: { ...state.x, n } };
   // The state may change while the server computes.
-  const sent = structuredClone({ design: state.design, x: { ...state.x, n }, by });
+  const sent = structuredClone(state.updown ? response : { ...response, by: state.by });
   try {
     const found = await request(kind, sent);
     if (!found) return null;
