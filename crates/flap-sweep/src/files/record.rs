@@ -222,8 +222,9 @@ impl Record {
     /// points.
     ///
     /// # Errors
-    /// - [`RecordError::Wrong`] if times do not increase or are too close, if the points have no centre of
-    ///   rotation, or if the chord in an image is longer than `chord`.
+    /// - [`RecordError::Wrong`] if times do not increase or are too close.
+    /// - [`RecordError::Wrong`] if the points have no centre of rotation, or if the chord in an image is longer
+    ///   than `chord`.
     /// - The errors of [`Record::column`].
     pub fn tracked(&self, chord: Option<f64>) -> Result<(Trajectory, [f64; 2]), RecordError> {
         let times = self.times()?;

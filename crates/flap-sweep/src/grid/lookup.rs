@@ -71,9 +71,9 @@ impl<'l> Lookup<'l> {
 
 /// Explains why a vehicle has no parameter called `name`. `parameters` are the parameters of the vehicle.
 ///
-/// The function explains the absence of three kinds of parameters: parameters of one wing that are common to
-/// all wings, phases, and left-right differences without wings on both sides. For all other names, or if `parameters`
-/// are not the parameters of a vehicle, returns `None`.
+/// The function explains the absence of three kinds of parameters. The kinds are parameters of one wing that
+/// all wings have in common, phases, and left-right differences without wings on both sides. For all other
+/// names, or if `parameters` are not the parameters of a vehicle, returns `None`.
 pub fn why_absent(parameters: &[Parameter], name: &str) -> Option<String> {
     if !parameters.iter().any(|known| known.name == "about_x") {
         return None;
