@@ -64,15 +64,18 @@ def _absolute(record: Any) -> Any:
 
 
 def _portable(design: Any) -> Any:
-    """Return a design in a form that workers can read. The name of a preset is unchanged, and the paths of a grid
-    become absolute paths.
+    """Return a design in a form that workers can read. The name of a preset or model is unchanged, and the paths of a
+    grid become absolute paths.
     """
     if isinstance(design, str) and design in _flapwing.presets():
         return design
     try:
         grid = Grid(design)
-    except ValueError:
-        _flapwing.states(design)  # accepts a model; raises the same error for anything else
+    except ValueError as mistake:
+        try:
+            _flapwing.states(design)  # accepts a model
+        except ValueError:
+            raise mistake from None
         return design
     return Grid._named(os.path.abspath(grid.name), grid.text)
 
