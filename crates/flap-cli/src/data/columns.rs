@@ -76,7 +76,7 @@ impl Table {
 /// Returns the failure for a column of text where flap requires numbers.
 pub(crate) fn no_numbers(name: &str) -> Failure {
     let failure = Failure::usage(format!("column `{name}` contains text, not numbers"));
-    failure.help("choose a column of numbers; only --by, --color and --where accept text")
+    failure.help("choose a column of numbers; only --where, and --by and --color of `flap plot`, accept text")
 }
 
 /// Returns the position of the column `name`, or an error that suggests a similar name or lists all names.
